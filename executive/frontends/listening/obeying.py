@@ -51,7 +51,8 @@ def _converse(options: Listen, handle: Handle | None, speech: Speech) -> int:
     """Listen, and do what is said."""
     prompt = cli.Begun(
         world=options.world, robot=options.robot, seed=options.seed, fast=options.fast,
-        run_dir=options.run_dir, model=options.model, reality=options.reality, driver=options.driver,
+        run_dir=options.run_dir, model=options.model, reality=options.reality,
+        driver=options.driver,
     )  # fmt: skip
     with cli.conversation(prompt, "listen", handle=handle, speech=speech) as shell:
         listener = ear(options, shell.robot.where.knowledge.vocabulary())
