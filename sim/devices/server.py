@@ -22,8 +22,8 @@ SHORTEST_WAIT_S = 0.0001
 DEAF_FRAMES = 100
 """What a program that does not read misses: so many are not even tried, as that takes time."""
 LIVE_EVERY_S = 0.000999
-"""Devices live up to every frame that they hear; in between now and then, too: in every millisecond,
-of which sums are not exact."""
+"""Devices live up to every frame that they hear; in between now and then, too: every millisecond
+(a hair less, as sums of them are not exact)."""
 
 
 class Living(Protocol):
