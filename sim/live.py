@@ -13,6 +13,7 @@ from robot.errors import ConfigError
 from robot.reality.faults import FAULT
 from sim import faults
 from sim.plant import Plant
+from sim.plant_buses import PlantBuses
 from sim.ray_sensors import developed
 from sim.scene_memory import SceneMemory
 
@@ -44,6 +45,7 @@ class LivePlant:
         *,
         clock: Clock,
         scene: SceneMemory | None = None,
+        buses: PlantBuses | None = None,
     ) -> None:
         """Put the parts together; nothing runs before `run`.
 
@@ -53,6 +55,7 @@ class LivePlant:
             bus: for what is not urgent.
             clock: of the wall.
             scene: for who takes pictures of it, where somebody does.
+            buses: by which its motors are commanded, where that is not by its memory.
         """
         self._scene, self._picture_s = scene, 0.0
         self._picture_period_s = 1.0 / plant.robot.sensors.camera.pictures().rate_hz
@@ -61,7 +64,9 @@ class LivePlant:
         self._faults = bus.subscribe(FAULT)
         self._spoken = bus.subscribe(topics.SPOKEN)
         self._controller = bus.subscribe(topics.CONTROLLER_TIMING)
-        self._lateness = Lateness("plant", PERIOD_S)
+        self._buses = buses
+        self._period_s = PERIOD_S if buses is None else buses.period_ms / 1000.0
+        self._lateness = Lateness("plant", self._period_s)
         self._due_s = clock.now_s()
         self._report_s = 0.0
         self._begun = False
@@ -73,7 +78,7 @@ class LivePlant:
             self.period()
 
     def period(self) -> None:
-        """One exchange with the controller, and two milliseconds of physics."""
+        """One exchange with the controller, and the physics of a period."""
         plant = self._plant
         for fault in self._faults.take():
             try:
@@ -91,10 +96,13 @@ class LivePlant:
         if self._scene is not None and plant.time_s >= self._picture_s - 1e-9:
             self._picture_s += self._picture_period_s
             self._scene.write(plant.time_s, plant.data)
-        waits = self._begun and not sample.motors.watchdog
-        self._exchange(patience_s=PATIENCE_S if waits else 0.0)
-        if self._begun:
-            plant.step(PERIOD_MS)
+        if self._buses is not None:
+            self._begun = self._buses.period(sample, patience_s=PATIENCE_S)
+        else:
+            waits = self._begun and not sample.motors.watchdog
+            self._exchange(patience_s=PATIENCE_S if waits else 0.0)
+            if self._begun:
+                plant.step(PERIOD_MS)
         self._pace()
 
     def _exchange(self, *, patience_s: float) -> None:
@@ -118,7 +126,7 @@ class LivePlant:
 
     def _pace(self) -> None:
         """Sleep until the next period is due, and report once a second."""
-        self._due_s = max(self._due_s + PERIOD_S, self._clock.now_s() - CATCH_UP_S)
+        self._due_s = max(self._due_s + self._period_s, self._clock.now_s() - CATCH_UP_S)
         self._clock.sleep_until(self._due_s)
         now_s = self._clock.now_s()
         self._lateness.tick(now_s)

@@ -9,9 +9,12 @@ from robot.bus import run
 from robot.bus.lifeline import Stop, ask_for_real_time, tie_to_parent
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import WallClock
+from robot.drivers.motors.can import joint_map
+from robot.drivers.registry import CAN
 from robot.drivers.simulation.shared_plant import PlantServer
 from robot.model import description
 from sim.live import LivePlant
+from sim.plant_buses import PlantBuses
 from sim.scene_memory import SceneMemory
 from sim.simulation import Simulation
 
@@ -21,7 +24,7 @@ def main(run_file: str, parent_pid: str) -> None:
     tie_to_parent(int(parent_pid))
     config, stop = run.load(run_file), Stop()
     world = Simulation().under(config.reality).world(config.world, vary_seed=config.variation_seed)
-    robot = description.load(config.robot)
+    robot = description.load(config.robot).driven_by(config.motors)
     plant = world.plant(robot, seed=config.seed)
     with ExitStack() as stack:
         bus = stack.enter_context(ZenohBus("plant", config.sockets))
@@ -29,8 +32,15 @@ def main(run_file: str, parent_pid: str) -> None:
         scene = SceneMemory(plant.model, config.memory, create=True) if config.pictures else None
         if scene is not None:
             stack.enter_context(scene)
+        clock = WallClock()
+        buses = None
+        if config.motors == CAN:
+            joints = joint_map.beside(robot)
+            buses = PlantBuses(plant, joints, config.memory, clock=clock, tell=print)
+            stack.enter_context(buses)
         ask_for_real_time()
-        LivePlant(plant, body, bus, clock=WallClock(), scene=scene).run(lambda: bool(stop))
+        live = LivePlant(plant, body, bus, clock=clock, scene=scene, buses=buses)
+        live.run(lambda: bool(stop))
 
 
 if __name__ == "__main__":

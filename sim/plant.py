@@ -273,6 +273,10 @@ class Plant:
         if not math.isfinite(self.data.qacc[0]):
             raise DriverError(f"the simulated physics diverged at {self.time_s:.3f} s")
 
+    def hold(self, count: int = 1) -> None:
+        """Let `count` milliseconds go by in which the body is held up, and nothing moves."""
+        self._now_ms += count
+
     def push(
         self, impulse_n_s: float, direction_rad: float, *, duration_s: float = 0.1, body: str = ""
     ) -> None:

@@ -14,6 +14,7 @@ from executive.engine.loop import Interrupts
 from executive.frontends import speaking
 from executive.frontends.composition_root import REALITY
 from executive.frontends.console.beside import shown as viewed
+from executive.frontends.driving import chosen
 from executive.frontends.dump.record import recorded
 from executive.frontends.dump.writer import along
 from executive.frontends.hooks import notified
@@ -110,9 +111,14 @@ def carry_out(
 
 
 def setup(where: Setting, options: Seeded, folder: Path) -> Setup:
-    """What a run is set up with."""
+    """What a run is set up with. Raises ConfigError if its motors cannot be driven so."""
     kind: runtimes.Kind = "fast" if options.fast else "live"
-    return Setup(where=where, kind=kind, seed=options.seed, folder=folder, pictures=options.camera)
+    err = isinstance(options, Shown) and options.as_json
+    driver = chosen(options.driver, where.description, fast=options.fast, err=err)
+    return Setup(
+        where=where, kind=kind, seed=options.seed, folder=folder, pictures=options.camera,
+        driver=driver,
+    )  # fmt: skip
 
 
 def _begun(handle: Handle | None) -> Prepared | None:

@@ -58,6 +58,14 @@ InReality = Annotated[
         "(docs/realities.md).",
     ),
 ]
+Driver = Annotated[
+    str,
+    typer.Option(
+        "--driver",
+        help="Of its motors, in place of the one that the robot names: simulated, or can, with "
+        "emulated motors behind emulated buses (docs/hardware.md; not with --fast).",
+    ),
+]
 Model = Annotated[
     Path | None,
     typer.Option(
@@ -99,6 +107,7 @@ class Seeded:
             "--fast", help="As fast as the machine goes, and the same every time, in one process."
         ),
     ] = False
+    driver: Driver = ""
     camera: Annotated[
         bool,
         typer.Option(

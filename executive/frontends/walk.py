@@ -5,6 +5,7 @@ from __future__ import annotations
 from executive.engine.loop import Interrupts
 from executive.frontends import streams
 from executive.frontends.composition_root import REALITY
+from executive.frontends.driving import chosen
 from executive.frontends.exit import refuse
 from executive.frontends.options import Walk
 from executive.frontends.output import Screen, say, write_json
@@ -39,7 +40,8 @@ def walk(options: Walk) -> int:
     interrupts, wall = Interrupts(), WallClock()
     begun_s = wall.now_s()
     kind: runtimes.Kind = "fast" if options.fast else "live"
-    setup = Setup(where=where, kind=kind, seed=options.seed, pictures=options.camera)
+    driver = chosen(options.driver, where.description, fast=options.fast, err=options.as_json)
+    setup = Setup(where=where, kind=kind, seed=options.seed, pictures=options.camera, driver=driver)
     with interrupts.listen(), runtimes.opened(setup) as (runtime, _):
         with Screen(quiet=options.as_json).status("walking") as status:
 

@@ -36,6 +36,7 @@ class Setup(msgspec.Struct, frozen=True, kw_only=True):
         seed: of everything random.
         folder: of the run, for its journal and the processes' logs (None: nothing is kept).
         pictures: whether what the robot's camera sees is rendered, in a live run.
+        driver: of the motors, in a live run; "" is the one that the robot's description names.
     """
 
     where: Setting
@@ -43,6 +44,7 @@ class Setup(msgspec.Struct, frozen=True, kw_only=True):
     seed: int = 0
     folder: Path | None = None
     pictures: bool = False
+    driver: str = ""
 
 
 class Opened(NamedTuple):
@@ -102,5 +104,6 @@ def opened(setup: Setup, *, handle: Handle | None = None) -> Generator[Opened]:
             seed=setup.seed,
             pictures=setup.pictures,
             handle=handle,
+            motors=setup.driver,
         )
         yield Opened(stack.enter_context(live), planner)

@@ -81,6 +81,7 @@ class LiveRuntime(Closing):
         simulated: bool = True,
         pictures: bool = False,
         handle: Handle | None = None,
+        motors: str = "",
     ) -> None:
         """Check everything that can be checked before a process starts.
 
@@ -93,11 +94,12 @@ class LiveRuntime(Closing):
             simulated: whether reality is: without, no plant is started.
             pictures: whether what the robot's camera sees is rendered, in a process of its own.
             handle: on the process above, where that one looks after the processes.
+            motors: driver of the motors in place of the one that the description names.
 
         Raises:
             ConfigError: if the robot or one of its drivers cannot be used.
         """
-        registry.check(description.load(robot))
+        registry.check(description.load(robot).driven_by(motors))
         self.timing: dict[str, LoopTiming] = {}
         self._plan = Run(
             folder=str(folder),
@@ -109,6 +111,7 @@ class LiveRuntime(Closing):
             reality=world.profile,
             simulated=simulated,
             pictures=pictures,
+            motors=motors,
         )
         self._handle = handle
         self._crew: Crew | None = None

@@ -15,7 +15,8 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     `folder` takes logs and results; `sockets` is a private folder with a short path for the bus's
     sockets and the plant's shared memory. `variation_seed` shuffles the world, None leaves it.
     `reality` is the profile of the simulated one; `simulated` says whether there is one, `pictures`
-    whether somebody looks through its camera.
+    whether somebody looks through its camera. `motors` is the driver of the motors in place of the
+    one in the robot's description; in simulation it is emulated.
     """
 
     folder: str
@@ -27,6 +28,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     reality: str = "ideal"
     simulated: bool = True
     pictures: bool = False
+    motors: str = ""
 
     @property
     def memory(self) -> Path:

@@ -38,7 +38,8 @@ def serve(loop: ControlLoop, body: BodyDevices, bus: Bus, *, clock: Clock, stop:
         if sample.motors.stamp_s == stamp_s:
             continue
         stamp_s = sample.motors.stamp_s
-        if (pause_s := lateness.tick(clock.now_s())) > PAUSE_S:
+        pause_s = lateness.tick(clock.now_s()) if ticks else 0.0  # the first command enables motors
+        if pause_s > PAUSE_S:
             loop.trip(f"the controller stood still for {pause_s:.2f} s")
         for command in commands.take():
             loop.handle(command)
@@ -64,11 +65,12 @@ def main(run_file: str, parent_pid: str) -> None:
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
     config, clock = run.load(run_file), WallClock()
-    robot = description.load(config.robot)
+    robot = description.load(config.robot).driven_by(config.motors)
     loop, stop = ControlLoop(robot), Stop()
     with ZenohBus("controller", config.sockets) as bus:
         plant = SharedPlant(robot, config.memory, clock=clock)  # opened by a simulated driver
-        wiring = Wiring(robot=robot, clock=clock, bus=bus, plant=plant)
+        emulated = config.memory if config.motors and config.simulated else None
+        wiring = Wiring(robot=robot, clock=clock, bus=bus, plant=plant, emulated=emulated)
         with BodyDevices(wiring, needs=NEEDS) as body:
             if not is_next(0.0) or not body.claim():
                 ControlLoop(robot).tick(body.read())  # the first tick of a process is a slow one

@@ -24,7 +24,7 @@ from robot.model.description import Battery, Camera, Imu, Lidar, RobotDescriptio
 
 R = TypeVar("R")
 D_co = TypeVar("D_co", covariant=True)
-SIMULATED = "simulated"
+SIMULATED, CAN = "simulated", "can"
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,7 @@ def _simulated_battery(wiring: Wiring) -> SensorSource[PowerState, Battery | Non
     return make(wiring)
 
 
-MOTORS = Family("motors", {SIMULATED: _simulated_motors, "can": _can_motors})
+MOTORS = Family("motors", {SIMULATED: _simulated_motors, CAN: _can_motors})
 
 # What the controller reads in every period (`robot.drivers.body_devices`).
 IMU = Family("imu", {SIMULATED: _simulated_imu})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Protocol
 
 from robot.bus.bus import Bus
@@ -62,12 +63,14 @@ class Wiring:
         clock: of the process, for stamps and timeouts.
         bus: of the process; a simulated plant sends over it what is not urgent.
         plant: the simulated plant, where this process may reach one.
+        emulated: folder of the sockets by which that plant emulates buses, where it does.
     """
 
     robot: RobotDescription
     clock: Clock
     bus: Bus
     plant: SimulatedPlant | None = None
+    emulated: Path | None = None
 
     def simulated_plant(self) -> SimulatedPlant:
         """The simulated plant. Raises DriverError if there is none."""

@@ -251,6 +251,12 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         """Where the description lies."""
         return Path(self.folder) / self.file
 
+    def driven_by(self, motors: str) -> RobotDescription:
+        """The same with another driver of its motors; "" leaves the one that it names."""
+        if not motors:
+            return self
+        return msgspec.structs.replace(self, drivers={**self.drivers, "motors": motors})
+
     @property
     def arm_sides(self) -> tuple[Side, ...]:
         """The arms that it has, left first; each may or may not have a hand."""

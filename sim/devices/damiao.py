@@ -9,13 +9,13 @@ import struct
 from dataclasses import dataclass, field
 from typing import Literal, get_args
 
-from sim.devices.shaft import Shaft
+from sim.devices.shaft import LET_GO, Order, Shaft
 from sim.devices.wire import CanFrame, Wire
 
-STEP_S = 0.0005
-"""Of the firmware's loop here; a real one runs at 20 kHz."""
 AMBIENT_C = 25.0
 ANSWERS_AFTER_S = 40e-6
+SAME_S = 1e-9
+"""Sums of steps are not exact."""
 WATCHDOG_UNIT_S = 50e-6
 DRIVER_TRIPS_C = 120.0
 KP_LIMIT, KD_LIMIT = 500.0, 5.0
@@ -45,17 +45,6 @@ class Trouble:
     short: bool = False
     speed_scale: float = 1.0
     status: int | None = None
-
-
-@dataclass
-class Ordered:
-    """The command in force."""
-
-    q_rad: float = 0.0
-    qd_rad_s: float = 0.0
-    kp: float = 0.0
-    kd: float = 0.0
-    tau_nm: float = 0.0
 
 
 @dataclass
@@ -94,9 +83,10 @@ class Damiao:
             15: 0, 20: 10.0, 21: self.position_rad, 22: self.velocity_rad_s, 23: self.torque_nm,
             29: 32.0, 35: 4, 36: 0,
         }  # fmt: skip
-        self._ordered = Ordered()
+        self._ordered, self._last = LET_GO, b""
         self._heard_s = self._lived_s = self.wire.now_s
         self._node = self.wire.attach(self.hear)
+        self._node.wants = frozenset((self.motor_id, 0x7FF))
 
     def suffer(self, flaw: Flaw) -> None:
         """Have something wrong; what `twin` means is up to who builds the bus."""
@@ -135,27 +125,30 @@ class Damiao:
                 self.live(now_s)
                 self._of_registers(frame.data, now_s)
         else:
-            self.live(now_s)
+            if self._lived_s + self.shaft.step_s <= now_s + SAME_S:
+                self.live(now_s)
             self._heard_s = now_s
             self._obey(frame.data)
             self._answer(self._feedback(), now_s)
 
     def _obey(self, data: bytes) -> None:
+        registers = self.registers
         if data[:7] == b"\xff\xff\xff\xff\xff\xff\xff" and data[7] >= 0xFB:
-            if data[7] == 0xFC and self.status == 0 and int(self.registers[10]) == 1:
-                self.status, self._ordered = 1, Ordered()
+            if data[7] == 0xFC and self.status == 0 and int(registers[10]) == 1:
+                self.status, self._ordered, self._last = 1, LET_GO, b""
             elif (data[7] == 0xFD and self.status == 1) or (data[7] == 0xFB and self.status > 1):
                 self.status = 0
             return
-        if self.status != 1 or int(self.registers[10]) != 1:
+        if self.status != 1 or registers[10] != 1 or data == self._last:
             return
-        b = data
-        self._ordered = Ordered(
-            q_rad=_real(b[0] << 8 | b[1], -self.registers[21], self.registers[21], 16),
-            qd_rad_s=_real(b[2] << 4 | b[3] >> 4, -self.registers[22], self.registers[22], 12),
-            kp=_real((b[3] & 0xF) << 8 | b[4], 0.0, KP_LIMIT, 12),
-            kd=_real(b[5] << 4 | b[6] >> 4, 0.0, KD_LIMIT, 12),
-            tau_nm=_real((b[6] & 0xF) << 8 | b[7], -self.registers[23], self.registers[23], 12),
+        b, p, v, t = data, registers[21], registers[22], registers[23]
+        self._last = data
+        self._ordered = Order(
+            q_rad=(b[0] << 8 | b[1]) * (p + p) / 65535 - p,
+            qd_rad_s=(b[2] << 4 | b[3] >> 4) * (v + v) / 4095 - v,
+            kp=((b[3] & 0xF) << 8 | b[4]) * KP_LIMIT / 4095,
+            kd=(b[5] << 4 | b[6] >> 4) * KD_LIMIT / 4095,
+            tau_nm=((b[6] & 0xF) << 8 | b[7]) * (t + t) / 4095 - t,
         )
 
     def _of_registers(self, data: bytes, now_s: float) -> None:
@@ -170,6 +163,8 @@ class Damiao:
                 (value,) = struct.unpack("<I" if whole else "<f", data[4:])
                 if number != 9 or 9 in self.registers:
                     self.registers[number] = value
+                    self._last = b""
+                    self._node.wants = frozenset((int(self.registers[8]), 0x7FF))
             value = self._register(number)
             whole = number in (7, 8, 9, 10, 13, 14, 15, 16, 35, 36)
             packed = struct.pack("<I", int(value)) if whole else struct.pack("<f", value)
@@ -207,15 +202,15 @@ class Damiao:
 
     def live(self, until_s: float) -> None:
         """Let time go by up to a moment, in whole steps."""
-        span_s = STEP_S
-        while self._lived_s + span_s <= until_s:
+        span_s = self.shaft.step_s
+        while self._lived_s + span_s <= until_s + SAME_S:
             self._lived_s += span_s
             self._watch()
-            self.tau_nm = self._torque() if self.status == 1 else 0.0
+            order = self._ordered if self.status == 1 else LET_GO
+            self.tau_nm = self.shaft.turn(order, self.registers[23], span_s)
             load = abs(self.tau_nm) / self.registers[23]
             cooling = 0.02 * (self.winding_c - AMBIENT_C)
             self.winding_c += span_s * (self.heat_k_s * load * load - cooling)
-            self.shaft.turn(self.tau_nm, span_s)
 
     def _watch(self) -> None:
         """Fall into a fault; also a disabled motor tells of heat and volts."""
@@ -233,16 +228,6 @@ class Damiao:
             found = 0xD
         if found is not None:
             self.status = found
-
-    def _torque(self) -> float:
-        o, most = self._ordered, self.registers[23]
-        shaft = self.shaft
-        wanted = o.kp * (o.q_rad - shaft.q_rad) + o.kd * (o.qd_rad_s - shaft.qd_rad_s) + o.tau_nm
-        return max(-most, min(most, wanted))
-
-
-def _real(steps: int, low: float, high: float, bits: int) -> float:
-    return steps * (high - low) / ((1 << bits) - 1) + low
 
 
 def _steps(value: float, most: float, bits: int) -> int:

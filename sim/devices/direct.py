@@ -12,6 +12,7 @@ from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.ports import Heard
 from sim.devices.bench import Bench
 from sim.devices.server import QUEUE_FRAMES
+from sim.devices.socket_frames import OFF_FRAME, SIZE, packed, unpacked
 from sim.devices.wire import CanFrame, Node
 
 
@@ -43,8 +44,7 @@ class DirectPorts(Closing):
 
     def send(self, bus: str, frame: Frame) -> bool:
         """Queue a frame; False if there is no room."""
-        sent = CanFrame(frame.id, frame.data, frame.is_extended)
-        return self._nodes[bus].send(sent, self._clock.now_s())
+        return self._nodes[bus].send(_can_frame(frame), self._clock.now_s())
 
     def receive(self, until_s: float) -> Sequence[Heard]:
         """What came in until a time; as soon as anything did."""
@@ -60,8 +60,28 @@ class DirectPorts(Closing):
         self._heard.clear()
         return heard
 
+    def send_packed(self, bus: str, frames: bytes) -> int:
+        """Queue packed frames; how many there was room for."""
+        node, now_s = self._nodes[bus], self._clock.now_s()
+        for taken in range(len(frames) // SIZE):
+            frame = unpacked(frames[taken * SIZE : (taken + 1) * SIZE])
+            if frame is not None and not node.send(frame, now_s):
+                return taken
+        return len(frames) // SIZE
+
+    def receive_packed(self) -> Sequence[tuple[str, bytes]]:
+        """What came in up to now."""
+        return [
+            (one.bus, OFF_FRAME if one.frame is None else packed(_can_frame(one.frame)))
+            for one in self.receive(self._clock.now_s())
+        ]
+
     def close(self) -> None:
         """Pull the plugs."""
         for name, node in self._nodes.items():
             self._bench.wires[name].detach(node)
         self._nodes.clear()
+
+
+def _can_frame(frame: Frame) -> CanFrame:
+    return CanFrame(frame.id, frame.data, frame.is_extended)

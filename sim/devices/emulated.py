@@ -13,11 +13,11 @@ from robot.bringup import private_folder
 from robot.clock import WallClock
 from robot.closing import Closing
 from robot.drivers.motors.can import joint_map
+from robot.drivers.motors.can.emulated import INTERFACE
 from robot.errors import ProcessError
 from sim.devices import bench
 from sim.devices.main import READY
 
-INTERFACE = "humanoid"
 STOPS_WITHIN_S = 3.0
 POLL_S = 0.005
 

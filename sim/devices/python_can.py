@@ -23,7 +23,11 @@ _EXTENDED, _REMOTE, _ERROR = 0x8000_0000, 0x4000_0000, 0x2000_0000
 
 
 class EmulatedBus(can.BusABC):
-    """A program's controller on an emulated bus."""
+    """A program's controller on an emulated bus.
+
+    Attributes:
+        socket: which carries its frames, 16 bytes each, as one of socketcan does.
+    """
 
     def __init__(self, channel: Any, can_filters: Any = None, **kwargs: Any) -> None:
         """Connect to the socket at the path `channel`; a bit rate is the emulator's business.
@@ -33,13 +37,13 @@ class EmulatedBus(can.BusABC):
         """
         self.channel_info = f"emulated {channel}"
         self.channel = channel
-        self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, QUEUE_BYTES)
-        self._socket.settimeout(0)
+        self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, QUEUE_BYTES)
+        self.socket.settimeout(0)
         try:
-            self._socket.connect(str(channel))
+            self.socket.connect(str(channel))
         except OSError as error:
-            self._socket.close()
+            self.socket.close()
             text = f"nobody emulates a bus at {channel}: {error.strerror}"
             raise can.CanInitializationError(text, error.errno) from None
         super().__init__(channel=channel, can_filters=can_filters, **kwargs)
@@ -50,8 +54,8 @@ class EmulatedBus(can.BusABC):
         data = _LAYOUT.pack(msg.arbitration_id | flags, msg.dlc, bytes(msg.data or b""))
         try:
             if timeout:
-                select.select([], [self._socket], [], timeout)
-            self._socket.send(data)
+                select.select([], [self.socket], [], timeout)
+            self.socket.send(data)
         except BlockingIOError:
             raise can.CanOperationError("Transmit buffer full", errno.ENOBUFS) from None
         except OSError as error:
@@ -59,11 +63,11 @@ class EmulatedBus(can.BusABC):
 
     def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
         if timeout != 0:
-            readable, _, _ = select.select([self._socket], [], [], timeout)
+            readable, _, _ = select.select([self.socket], [], [], timeout)
             if not readable:
                 return None, False
         try:
-            data = self._socket.recv(SIZE)
+            data = self.socket.recv(SIZE)
         except BlockingIOError:
             return None, False
         except OSError as error:
@@ -83,9 +87,9 @@ class EmulatedBus(can.BusABC):
 
     def fileno(self) -> int:
         """Of the socket, to wait for it."""
-        return self._socket.fileno()
+        return self.socket.fileno()
 
     def shutdown(self) -> None:
         """Let go of the bus."""
         super().shutdown()
-        self._socket.close()
+        self.socket.close()

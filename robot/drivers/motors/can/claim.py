@@ -38,6 +38,14 @@ class Claim:
                 return False
         return True
 
+    def is_free(self) -> bool:
+        """Whether nobody else has any of them."""
+        if self._held:
+            return True
+        taken = self.take()
+        self.release()
+        return taken
+
     def release(self) -> None:
         """Let go of them."""
         for one in self._held:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable
 from typing import Self
 
@@ -14,12 +13,14 @@ from robot.drivers.motor_bus import MIT_MODE, MotorBus, MotorCommand, MotorState
 from robot.drivers.motors.can import arming, joint_map, watching
 from robot.drivers.motors.can.alarms import Alarms, Level
 from robot.drivers.motors.can.claim import Claim
-from robot.drivers.motors.can.families import Asking
+from robot.drivers.motors.can.coding import Coding
+from robot.drivers.motors.can.emulated import EmulatedBuses, PlantClock, buses_in
 from robot.drivers.motors.can.gearing import Gearing
 from robot.drivers.motors.can.interview import interview
 from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.can.limiter import Limiter, Measured
-from robot.drivers.motors.can.mit11 import ENABLED, Target
+from robot.drivers.motors.can.mit11 import ENABLED
+from robot.drivers.motors.can.packed import packed
 from robot.drivers.motors.can.ports import Ports, PythonCan, check_buses
 from robot.drivers.motors.can.reception import Reception
 from robot.drivers.motors.can.sending import TransmitQueue
@@ -29,8 +30,13 @@ from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.se3 import Array
 
-LOOKS = 4
+LOOKS = 2
 """A period, for what came in: to wake up for every reply would take a third of a core more."""
+
+STALE_CALLS = 16
+"""More than an interface's receive buffer holds."""
+SAME_S = 1e-6
+"""Sums of periods are not exact, and the time of a simulation goes on in whole periods."""
 
 
 def make(wiring: Wiring) -> MotorBus:
@@ -40,10 +46,19 @@ def make(wiring: Wiring) -> MotorBus:
         ConfigError: the file says what cannot be meant, or lacks a motor of the robot.
         DriverError: the user does not let robots open one of its buses.
     """
-    found = joint_map.load(wiring.robot.path().with_name(joint_map.FILE))
-    joints = joint_map.of_robot(found, wiring.robot.motor_names)
+    joints = joint_map.beside(wiring.robot)
+    if wiring.emulated is not None:
+        plant = wiring.simulated_plant()
+        joints, time = buses_in(joints, wiring.emulated), PlantClock(plant)
+        return CanMotors(joints, time, ports=lambda: EmulatedBuses(joints, plant, time), tell=print)
     check_buses(joints.buses)
-    return CanMotors(joints, wiring.clock, ports=lambda: PythonCan(joints.buses, wiring.clock))
+    return CanMotors(
+        joints, wiring.clock, ports=lambda: PythonCan(joints.buses, wiring.clock), tell=print
+    )
+
+
+def _nobody(_line: str) -> None:
+    """Hear nothing."""
 
 
 class CanMotors(Closing):
@@ -60,15 +75,31 @@ class CanMotors(Closing):
 
     capabilities = MIT_MODE
 
-    def __init__(self, joints: JointMap, clock: Clock, *, ports: Callable[[], Ports]) -> None:
-        """Know the motors; nothing is opened."""
+    def __init__(
+        self,
+        joints: JointMap,
+        clock: Clock,
+        *,
+        ports: Callable[[], Ports],
+        tell: Callable[[str], None] = _nobody,
+    ) -> None:
+        """Know the motors; nothing is opened.
+
+        Args:
+            joints: the map.
+            clock: of its periods.
+            ports: opens its buses.
+            tell: hears a line of every alarm, and at the end how well replies came.
+        """
         self.joints = joints
         self.alarms = Alarms()
         self.late = 0
+        self._tell, self._told = tell, frozenset[str]()
+        self._periods = self._lost_before = 0
         self._clock, self._opens = clock, ports
         self._motors = list(joints.joints.values())
-        self._turns = _turns(joints)
         self._gearing, self.limiter = Gearing(joints), Limiter(joints)
+        self._refreshes = _refreshes(joints)
         self._claim = Claim(f"{bus.interface}:{bus.channel}" for bus in joints.buses.values())
         self.queues = {bus: TransmitQueue(bus) for bus in joints.buses}
         self._ports: Ports | None = None
@@ -82,32 +113,51 @@ class CanMotors(Closing):
     def __enter__(self) -> Self:
         """Open the buses, and ask every motor who it is; nothing is enabled.
 
+        While another program commands them nobody is asked: these questions would take the place of
+        its commands. They are then asked before the motors are enabled from here.
+
         Raises:
             DriverError: if a bus cannot be opened, or a motor is not what the map says: with
                 everything that disagrees.
         """
         ports = self._opens()
         ports.__enter__()
+        self.ranges = [one.expected for one in self._motors]
+        self._is_known = False
         try:
-            answers = interview(ports, self._clock, self.joints)
-            if grave := [str(one) for one in verdicts(self.joints, answers) if one.is_grave]:
-                raise DriverError("the motors are not enabled:\n  " + "\n  ".join(grave))
+            if self._claim.is_free():
+                self._interview(ports)
         except DriverError:
             ports.close()
             raise
-        self._ports = ports
-        self.ranges = [
-            found if (asking := one.family.asking) and (found := answers[name].ranges(asking))
-            else one.expected
-            for name, one in self.joints.joints.items()
-        ]  # fmt: skip
-        self._most: Array = np.array(self.ranges).T
-        self.reception = Reception(self.joints, self.ranges)
+        self._ports, self._asks = ports, self._is_known
+        self._understand()
         self._watch = watching.Watch(self.joints, self.alarms)
         self._tick_s = self._clock.now_s() + self.joints.period_s
         for _ in range(watching.SILENT_PERIODS):
             self.read()
         return self
+
+    def _interview(self, ports: Ports) -> None:
+        """Ask every motor who it is. Raises DriverError with everything that disagrees."""
+        answers = interview(ports, self._clock, self.joints)
+        if grave := [str(one) for one in verdicts(self.joints, answers) if one.is_grave]:
+            raise DriverError("the motors are not enabled:\n  " + "\n  ".join(grave))
+        self.ranges = [
+            found if (asking := one.family.asking) and (found := answers[name].ranges(asking))
+            else one.expected
+            for name, one in self.joints.joints.items()
+        ]  # fmt: skip
+        self._is_known = True
+
+    def _understand(self) -> None:
+        """Read and write frames by the ranges that the motors have."""
+        most = np.array(self.ranges).T
+        gains = np.array([(one.family.kp_max, one.family.kd_max) for one in self._motors]).T
+        self._high: Array = np.stack((most[0], most[1], *gains, most[2]))
+        self._low: Array = self._high * [[-1.0], [-1.0], [0.0], [0.0], [-1.0]]
+        self._coding = Coding(self.joints, self.ranges)
+        self.reception = Reception(self.joints, self.ranges, self._coding)
 
     def close(self) -> None:
         """Leave the motors damping for themselves, if they are commanded from here, and close."""
@@ -121,11 +171,28 @@ class CanMotors(Closing):
             self._is_armed = False
             self._claim.release()
             ports.close()
+            if self._periods:
+                self._tell(self._summary())
+
+    def _summary(self) -> str:
+        """How well replies came since the motors were enabled."""
+        joints, lost = len(self.joints.joints), self.reception.lost - self._lost_before
+        share = lost / (self._periods * joints)
+        return (
+            f"CAN: {joints} joints, {self._periods} periods at {self.joints.rate_hz} Hz, {lost} "
+            f"replies late ({share:.3%}), {self.late} periods late"
+        )
 
     def claim(self) -> bool:
         """Become the one that commands these buses; False while another one does."""
-        self._opened()
-        return self._claim.take()
+        ports = self._opened()
+        if self._claim.is_held:
+            return True
+        if taken := self._claim.take():
+            for _ in range(STALE_CALLS):  # what nobody read meanwhile is of the past
+                if not ports.receive_packed():
+                    break
+        return taken
 
     @property
     def speeds(self) -> SpeedCheck:
@@ -158,31 +225,45 @@ class CanMotors(Closing):
         while True:
             look_s = self._clock.now_s() + self.joints.period_s / LOOKS
             self._clock.sleep_until(min(until_s, look_s))
-            for heard in ports.receive(0.0):
-                now_s = self._clock.now_s()
-                if heard.frame is None:
-                    self._watch.bus_off(heard.bus)
-                else:
-                    self.reception.take(heard.bus, heard.frame, now_s)
+            if came := ports.receive_packed():
+                for bus in self.reception.take(came, self._clock.now_s()):
+                    self._watch.bus_off(bus)
             if any(queue.waiting for queue in self.queues.values()):
                 self._flush(ports)
-            if self._clock.now_s() >= until_s:
+            if (ended_s := self._clock.now_s()) >= until_s - SAME_S:
                 break
-        self._tick_s = until_s + self.joints.period_s
+        begun_s = ended_s if ended_s - until_s < SAME_S else until_s
+        self._tick_s = begun_s + self.joints.period_s
         self._asked = False
         state = self._state()
-        if not commands:  # two replies: another program commands, and all hear what it is told
-            alone = self.reception.most_replies < 2 if self._asks else self.reception.misses.any()
-            self._asks = bool(alone)
+        if not commands:
+            self._asks = self._is_alone()
         return state
+
+    def _is_alone(self) -> bool:
+        """Whether motors tell nothing unless they are asked from here.
+
+        Where another program commands all hear what it is told; asked as well, there are two
+        replies, and the bus gets too full.
+        """
+        heard = self.reception
+        if self._asks:
+            return heard.most_replies < 2
+        if int(heard.misses.min()) >= watching.SILENT_PERIODS:
+            return True
+        return bool(heard.misses.any()) and self._claim.is_free()
 
     def _state(self) -> MotorState:
         now_s, heard = self._clock.now_s(), self.reception
         heard.end_period()
         q, qd, tau = heard.at_joints(self._gearing)
         self._watch.look(now_s, heard, q, qd, self.queues, is_armed=self._is_armed)
+        self._periods += self._is_armed
+        if self._is_armed and (self.alarms.on or self._told):
+            self._tell_alarms(now_s)
         status = self._motors[0].family.status
-        let_go = any(status(code).code == watching.LOST for code in set(heard.status))
+        odd = set(heard.status.tolist()) - {ENABLED}
+        let_go = any(status(code).code == watching.LOST for code in odd)
         return MotorState(
             stamp_s=now_s,
             q=q,
@@ -194,12 +275,17 @@ class CanMotors(Closing):
             command_stamp_s=self._sent.stamp_s if self._sent is not None else -np.inf,
         )
 
+    def _tell_alarms(self, now_s: float) -> None:
+        """Say what is new."""
+        on = {f"{alarm.code} {alarm.who}": alarm for alarm in self.alarms.on}
+        for key in on.keys() - self._told:
+            self._tell(f"{now_s:.3f} s, {on[key].level.name}: {on[key]}")
+        self._told = frozenset(on)
+
     def _ask(self) -> None:
         """Ask every motor for feedback: nobody commanded since the last reading."""
-        for one in self._motors:
-            asking: Asking | None = one.family.asking
-            if asking is not None:
-                self.queues[one.bus].put(one.id, asking.refresh(one.id))
+        for bus, frames in self._refreshes.items():
+            self.queues[bus].put(frames)
         self._flush(self._opened())
 
     # --- write -----------------------------------------------------------------------------------
@@ -218,9 +304,13 @@ class CanMotors(Closing):
         if not self.claim():
             raise DriverError("another controller commands the motors")
         if not self._is_armed:
+            if not self._is_known:
+                self._interview(ports)
+                self._understand()
             arming.arm(ports, self._clock, self.joints, self.ranges)
             self._is_armed = True
-            self.reception.status = [ENABLED] * len(self._motors)
+            self._lost_before, self._periods = self.reception.lost, 0
+            self.reception.status[:] = ENABLED
             self._tick_s = self._clock.now_s() + self.joints.period_s
         q, qd, _ = self.reception.at_joints(self._gearing)
         measured = Measured(q, qd, self.reception.temperature_c)
@@ -244,32 +334,21 @@ class CanMotors(Closing):
         return MotorCommand(command.stamp_s, held.q_des, held.qd_des, held.tau_ff, held.kp, held.kd)
 
     def _send(self, ports: Ports, command: MotorCommand) -> MotorCommand:
-        gearing, most = self._gearing, self._most
-        columns = (
-            np.clip(gearing.motor_q(command.q_des), -most[0], most[0]),
-            np.clip(gearing.motor_qd(command.qd_des), -most[1], most[1]),
-            command.kp / gearing.stiffness,
-            command.kd / gearing.stiffness,
-            np.clip(gearing.motor_tau(command.tau_ff), -most[2], most[2]),
-        )
-        for queue in self.queues.values():
-            queue.forget()
-        rows = list(zip(*(column.tolist() for column in columns), strict=True))
-        frames: list[bytes] = [b""] * len(rows)
-        now_s = self._clock.now_s()
-        for index in self._turns:  # the first of every bus, then the second: all are busy at once
-            one = self._motors[index]
-            frame = one.family.command(one.id, self.ranges[index], Target(*rows[index]))
-            frames[index] = frame.data
-            queue = self.queues[one.bus]
-            queue.put(one.id, frame)
-            queue.flush(ports, now_s)
+        gearing = self._gearing
+        targets = np.stack(
+            (
+                gearing.motor_q(command.q_des), gearing.motor_qd(command.qd_des),
+                command.kp / gearing.stiffness, command.kd / gearing.stiffness,
+                gearing.motor_tau(command.tau_ff),
+            )
+        )  # fmt: skip
+        np.clip(targets, self._low, self._high, out=targets)
+        frames, said = self._coding.commands(targets)
+        for bus, packed_frames in frames.items():
+            self.queues[bus].put(packed_frames)
+        self._flush(ports)
         self._asked = True
-        said = [
-            one.family.target(data, ranges)
-            for one, data, ranges in zip(self._motors, frames, self.ranges, strict=True)
-        ]
-        q, qd, kp, kd, tau = np.array(said).T
+        q, qd, kp, kd, tau = said
         return MotorCommand(
             command.stamp_s, gearing.joint_q(q), gearing.joint_qd(qd), gearing.joint_tau(tau),
             kp * gearing.stiffness, kd * gearing.stiffness,
@@ -286,11 +365,13 @@ class CanMotors(Closing):
         return self._ports
 
 
-def _turns(joints: JointMap) -> list[int]:
-    """Indices of joints: the first of every bus, then the second of every bus, and so on."""
-    on_bus: Counter[str] = Counter()
-    ranks: list[int] = []
-    for one in joints.joints.values():
-        ranks.append(on_bus[one.bus])
-        on_bus[one.bus] += 1
-    return sorted(range(len(ranks)), key=ranks.__getitem__)
+def _refreshes(joints: JointMap) -> dict[str, bytes]:
+    """Packed questions for feedback, by bus, to all motors that can be asked."""
+    return {
+        bus: b"".join(
+            packed(asking.refresh(one.id))
+            for one in joints.on(bus).values()
+            if (asking := one.family.asking) is not None
+        )
+        for bus in joints.buses
+    }

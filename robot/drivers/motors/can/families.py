@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from robot.drivers.motors.can import mit11
+from robot.drivers.motors.can import mit11, mit11_arrays
 from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.mit11 import Feedback, Ranges, RegisterReply, Status, Target
+from robot.drivers.motors.can.mit11_arrays import ManyMit11
 
 
 class Settings(NamedTuple):
@@ -46,6 +47,7 @@ class Family:
         command, target: a target into a frame, and what a frame really says.
         enable, disable, clear_fault: by identifier; not every motor can forget a fault.
         feedback: what a reply says.
+        arrays: the same commands and replies, for several motors with these ranges at once.
         status: what a status code says.
         asking: None of motors that cannot be asked; their map says their ranges.
     """
@@ -59,6 +61,7 @@ class Family:
     disable: Callable[[int], Frame]
     clear_fault: Callable[[int], Frame] | None
     feedback: Callable[[bytes, Ranges], Feedback | None]
+    arrays: Callable[[Sequence[Ranges]], ManyMit11]
     status: Callable[[int], Status]
     asking: Asking | None
 
@@ -92,6 +95,7 @@ FAMILIES: dict[str, Family] = {
         disable=mit11.disable,
         clear_fault=mit11.clear_fault,
         feedback=mit11.feedback,
+        arrays=mit11_arrays.damiao,
         status=mit11.status,
         asking=_DAMIAO,
     ),
@@ -105,6 +109,7 @@ FAMILIES: dict[str, Family] = {
         disable=mit11.disable,
         clear_fault=None,
         feedback=mit11.feedback_ak,
+        arrays=mit11_arrays.ak,
         status=mit11.status,
         asking=None,
     ),

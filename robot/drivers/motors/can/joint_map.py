@@ -24,6 +24,7 @@ from robot.drivers.motors.can.frames import BITRATE_HZ
 from robot.drivers.motors.can.mit11 import MOST_ID, Ranges
 from robot.drivers.motors.can.models import MODELS
 from robot.errors import ConfigError, Problem
+from robot.model.description import RobotDescription
 
 FILE = "can.yaml"
 REPLIES_ABOVE = 16
@@ -171,6 +172,15 @@ def load(path: Path | str) -> JointMap:
     if places:
         raise ConfigError([config.place(node, where).problem(*what) for where, *what in places])
     return found
+
+
+def beside(robot: RobotDescription) -> JointMap:
+    """The map beside a robot's description, in its motor order.
+
+    Raises:
+        ConfigError: as `load` and `of_robot`.
+    """
+    return of_robot(load(robot.path().with_name(FILE)), robot.motor_names)
 
 
 def of_robot(found: JointMap, motors: Sequence[str]) -> JointMap:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import numpy.typing as npt
 
-from robot.drivers.motors.can.frames import Frame
+from robot.drivers.motors.can.coding import Coding
 from robot.drivers.motors.can.gearing import Gearing
 from robot.drivers.motors.can.joint_map import JointMap
-from robot.drivers.motors.can.mit11 import DISABLED, Feedback, Ranges
+from robot.drivers.motors.can.mit11 import DISABLED, Ranges
+from robot.drivers.motors.can.packed import BUS_OFF, ERROR, RECORD, SHORT_IDS, Bytes
 from robot.se3 import Array
 
 JUMPS_BELIEVED = 3
@@ -16,6 +19,8 @@ JUMPS_BELIEVED = 3
 JUMP_SLACK_RAD = 0.05
 FASTER = 1.5
 """Than its range, at most, a motor may turn from one reply to the next."""
+NOBODY = -1
+_REGISTER_AT, _READ, _WRITE = 2, 0x33, 0x55
 
 
 class Reception:
@@ -32,77 +37,114 @@ class Reception:
         most_replies: that any motor gave in the last period.
     """
 
-    def __init__(self, joints: JointMap, ranges: list[Ranges]) -> None:
+    def __init__(self, joints: JointMap, ranges: list[Ranges], coding: Coding) -> None:
         """Nothing was heard yet."""
         count = len(joints.joints)
-        self.q: Array = np.zeros(count)
-        self.qd: Array = np.zeros(count)
-        self.tau: Array = np.zeros(count)
+        self._motion: Array = np.zeros((3, count))
+        self.q, self.qd, self.tau = self._motion
         self.temperature_c: Array = np.full(count, np.nan)
         self.heard_s: Array = np.full(count, -np.inf)
-        self.misses: npt.NDArray[np.int_] = np.zeros(count, np.int_)
-        self.status = [DISABLED] * count
-        self.jumps = [0] * count
-        self.doubles = [0] * count
+        self.misses: npt.NDArray[np.intp] = np.zeros(count, np.intp)
+        self.status: npt.NDArray[np.intp] = np.full(count, DISABLED, np.intp)
+        self.jumps: npt.NDArray[np.intp] = np.zeros(count, np.intp)
+        self.doubles: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self.lost = self.ignored = self.most_replies = 0
-        self._replies = [0] * count
-        self._ranges = ranges
-        self._period_s = joints.period_s
+        self._replies: npt.NDArray[np.intp] = np.zeros(count, np.intp)
+        self._coding, self._period_s = coding, joints.period_s
         self._motors = list(joints.joints.values())
-        self._decode = [one.family.feedback for one in self._motors]
         self._register_of = [
             None if one.family.asking is None else one.family.asking.reply for one in self._motors
         ]
-        self._by_reply = {(one.bus, one.answers_as): i for i, one in enumerate(self._motors)}
-        self._fastest = [FASTER * one.velocity_rad_s for one in ranges]
+        self._first_key = {bus: number * SHORT_IDS for number, bus in enumerate(joints.buses)}
+        self._by_key = np.full(SHORT_IDS * len(joints.buses) + 1, NOBODY, np.intp)
+        for index, one in enumerate(self._motors):
+            self._by_key[self._first_key[one.bus] + one.answers_as] = index
+        self._fastest: Array = np.array([FASTER * one.velocity_rad_s for one in ranges])
 
-    def take(self, bus: str, frame: Frame, now_s: float) -> None:
-        """A frame that came in; what is no feedback of ours is ignored and counted."""
-        index = self._by_reply.get((bus, frame.id))
-        found = None if index is None else self._decode[index](frame.data, self._ranges[index])
-        if index is None or found is None or self._is_register(index, frame):
-            self.ignored += 1
-            return
-        self._replies[index] += 1
-        self._believe(index, found, now_s)
+    def take(self, came: Sequence[tuple[str, bytes]], now_s: float) -> Sequence[str]:
+        """Packed frames that came in, by bus; returns the buses that went off.
 
-    def _is_register(self, index: int, frame: Frame) -> bool:
+        What is no feedback of ours is ignored and counted. Of several replies of one motor each is
+        looked at, in their order.
+        """
+        frames = np.frombuffer(b"".join(packed for _, packed in came), RECORD)
+        keys = frames["id"].astype(np.intp)
+        counts = [len(packed) // RECORD.itemsize for _, packed in came]
+        first = np.repeat(np.array([self._first_key[bus] for bus, _ in came]), counts)
+        is_short = keys < SHORT_IDS
+        which = self._by_key[np.where(is_short, keys + first, NOBODY)]
+        off: Sequence[str] = () if is_short.all() else self._off(keys, first)
+        data, lengths = frames["data"], frames["length"]
+        ours = which != NOBODY
+        ours[ours] = self._coding.is_feedback(lengths[ours], which[ours])
+        for index in np.flatnonzero(ours & _may_be_register(data)).tolist():
+            ours[index] = not self._is_register(int(which[index]), data[index].tobytes())
+        if not ours.all():
+            self.ignored += int(np.count_nonzero(~ours))
+            which, data, lengths = which[ours], data[ours], lengths[ours]
+        replies = np.bincount(which, minlength=len(self._replies))
+        self._replies += replies
+        if int(replies.max()) <= 1:
+            self._believe(which, data, lengths, now_s)
+            return off
+        order = np.argsort(which, kind="stable")
+        turn = np.empty(len(which), np.intp)  # its first reply, its second, and so on
+        turn[order] = np.arange(len(which)) - np.repeat(np.cumsum(replies) - replies, replies)
+        for number in range(int(replies.max())):
+            now = turn == number
+            self._believe(which[now], data[now], lengths[now], now_s)
+        return off
+
+    def _off(self, keys: npt.NDArray[np.intp], first: npt.NDArray[np.intp]) -> Sequence[str]:
+        """Buses whose error frames say that their controller went off."""
+        told = first[(keys & ERROR != 0) & (keys & BUS_OFF != 0)].tolist()
+        return [bus for bus, key in self._first_key.items() if key in told]
+
+    def _is_register(self, index: int, data: bytes) -> bool:
         """Whether it answers another program that asked for a register."""
-        if frame.data[2] not in (0x33, 0x55):
-            return False
         read = self._register_of[index]
-        reply = None if read is None else read(frame.data)
+        reply = None if read is None else read(data)
         return reply is not None and reply.motor_id == self._motors[index].id
 
-    def _believe(self, index: int, found: Feedback, now_s: float) -> None:
-        since_s = now_s - self.heard_s[index]
-        allowed = JUMP_SLACK_RAD + self._fastest[index] * since_s
-        if abs(found.q_rad - self.q[index]) > allowed and self.jumps[index] < JUMPS_BELIEVED:
-            self.jumps[index] += 1
-            return
-        self.jumps[index] = 0
-        self.q[index], self.qd[index], self.tau[index] = found[2:5]
-        self.temperature_c[index] = found.winding_c
-        self.status[index] = found.status
-        self.heard_s[index] = now_s
+    def _believe(
+        self, which: npt.NDArray[np.intp], data: Bytes, lengths: Bytes, now_s: float
+    ) -> None:
+        """Take what different motors said, but for positions that nobody can have come to."""
+        motion, status, winding_c = self._coding.feedback(data, lengths, which)
+        allowed = JUMP_SLACK_RAD + self._fastest[which] * (now_s - self.heard_s[which])
+        jumped = np.abs(motion[0] - self.q[which]) > allowed
+        if jumped.any():
+            jumped &= self.jumps[which] < JUMPS_BELIEVED
+            self.jumps[which[jumped]] += 1
+            calm = ~jumped
+            which, motion, status = which[calm], motion[:, calm], status[calm]
+            winding_c = winding_c[calm]
+        self.jumps[which] = 0
+        self._motion[:, which] = motion
+        self.temperature_c[which] = winding_c
+        self.status[which] = status
+        self.heard_s[which] = now_s
 
     def end_period(self) -> None:
         """Count who did not answer, and bridge the first reply that anyone did not give."""
         replies = self._replies
-        self.most_replies = max(replies)
-        if all(count == 1 for count in replies) and not self.misses.any():
-            self.doubles = [0] * len(replies)
+        self.most_replies = int(replies.max())
+        if self.most_replies == int(replies.min()) == 1 and not self.misses.any():
+            self.doubles[:] = 0
         else:
-            silent = np.array(replies) == 0
+            silent = replies == 0
             self.misses = np.where(silent, self.misses + 1, 0)
             self.lost += int(np.count_nonzero(silent))
             self.q += np.where(self.misses == 1, self.qd * self._period_s, 0.0)
-            self.doubles = [
-                before + 1 if count > 1 else 0
-                for before, count in zip(self.doubles, replies, strict=True)
-            ]
-        self._replies = [0] * len(replies)
+            self.doubles = np.where(replies > 1, self.doubles + 1, 0)
+        self._replies = np.zeros_like(replies)
 
     def at_joints(self, gearing: Gearing) -> tuple[Array, Array, Array]:
         """Angles, speeds and torques of the joints; arrays of their own."""
         return gearing.joint_q(self.q), gearing.joint_qd(self.qd), gearing.joint_tau(self.tau)
+
+
+def _may_be_register(data: Bytes) -> npt.NDArray[np.bool_]:
+    """Which look like answers about a register; feedback can, too."""
+    what = data[:, _REGISTER_AT]
+    return (what == _READ) | (what == _WRITE)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from robot.drivers.motors.can.frames import Frame
+from robot.drivers.motors.can.packed import SIZE
 from robot.drivers.motors.can.ports import Ports
 
 
@@ -19,30 +19,26 @@ class TransmitQueue:
         self.bus = bus
         self.replaced = 0
         self.full_since_s: float | None = None
-        self._waiting: dict[int, Frame] = {}
+        self._waiting = b""
 
-    def put(self, motor: int, frame: Frame) -> None:
-        """Queue the command of a motor in place of the one before."""
-        if self._waiting.pop(motor, None) is not None:
-            self.replaced += 1
-        self._waiting[motor] = frame
-
-    def forget(self) -> None:
-        """Drop what waits: it is of a period that is over."""
-        self.replaced += len(self._waiting)
-        self._waiting.clear()
+    def put(self, frames: bytes) -> None:
+        """Queue the packed commands of a period in place of those of the one before."""
+        self.replaced += self.waiting
+        self._waiting = frames
 
     def flush(self, ports: Ports, now_s: float) -> None:
         """Hand over what the interface takes. Raises DriverError if it is down."""
-        for motor, frame in list(self._waiting.items()):
-            if not ports.send(self.bus, frame):
-                if self.full_since_s is None:
-                    self.full_since_s = now_s
-                return
-            del self._waiting[motor]
-        self.full_since_s = None
+        if not self._waiting:
+            self.full_since_s = None
+            return
+        taken = ports.send_packed(self.bus, self._waiting)
+        self._waiting = self._waiting[taken * SIZE :]
+        if not self._waiting:
+            self.full_since_s = None
+        elif self.full_since_s is None:
+            self.full_since_s = now_s
 
     @property
     def waiting(self) -> int:
         """How many commands wait."""
-        return len(self._waiting)
+        return len(self._waiting) // SIZE

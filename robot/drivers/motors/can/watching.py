@@ -74,9 +74,9 @@ class Watch:
             late
             or self.speeds.wrong.any()
             or bool(np.fmax.reduce(heard.temperature_c - self._hot_c) > -WARM_K)
-            or any(heard.jumps)
-            or any(heard.doubles)
-            or any(code != ENABLED for code in heard.status)
+            or heard.jumps.any()
+            or heard.doubles.any()
+            or (heard.status != ENABLED).any()
         )
         if odd or self._troubled:
             for index, name in enumerate(self._names):
@@ -88,7 +88,7 @@ class Watch:
         one = self._motors[index]
         alarms = [
             *self._silence(index, name, one, heard, is_armed=is_armed),
-            *self._status(heard.status[index], name, one, is_armed=is_armed),
+            *self._status(int(heard.status[index]), name, one, is_armed=is_armed),
             *self._heat(float(heard.temperature_c[index]), name, one),
         ]
         if self.speeds.wrong[index]:
@@ -99,7 +99,7 @@ class Watch:
             text = f"its position jumped, {heard.jumps[index]} times in a row"
             cure = "look at its encoder and its power"
             alarms.append(Alarm("encoder_jump", name, Level.SIT, text, cure, is_latched=True))
-        if heard.doubles[index] >= DOUBLE_PERIODS:
+        if is_armed and heard.doubles[index] >= DOUBLE_PERIODS:  # else others may have commanded
             text = f"more than one motor answers as {one.answers_as} on {one.bus}"
             alarms.append(Alarm("duplicate_id", name, Level.HOLD, text, "give each its own id"))
         for alarm in alarms:

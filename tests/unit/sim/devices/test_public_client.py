@@ -116,7 +116,7 @@ def test_nobody_there_is_an_error_with_the_path(tmp_path: Path):
 def test_junk_on_the_socket_is_passed_over(served: Served):
     with can.Bus(interface="humanoid", channel=str(served.path)) as bus:
         for junk in (b"x", b"\xff" * 16, bytes(15), bytes(4) + b"\xff" + bytes(11)):
-            bus._socket.send(junk)
+            bus.socket.send(junk)
         bus.send(can.Message(arbitration_id=1, data=b"\xff" * 7 + b"\xfc", is_extended_id=False))
         message = bus.recv(PATIENCE_S)
     assert message is not None

@@ -230,6 +230,16 @@ def test_strange_frames_are_ignored_and_counted(rig: Rig):
         assert driver.alarms.level == Level.OK
 
 
+def test_what_came_in_before_its_turn_is_dropped(rig: Rig):
+    """A spare that nobody let read for a while begins with what is so now."""
+    with rig.driver, rig.another() as spare:
+        rig.cycle(50)
+        assert rig.ports[-1]._heard
+        rig.driver.close()
+        assert spare.claim()
+        assert not rig.ports[-1]._heard
+
+
 def test_another_program_that_reads_registers_does_not_disturb(rig: Rig):
     with rig.driver as driver:
         state = rig.cycle(300, q=0.5)

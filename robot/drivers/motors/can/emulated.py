@@ -1,0 +1,90 @@
+"""CAN buses that a simulation emulates: where its sockets are, and its time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Self
+
+import msgspec
+
+from robot.clock import Clock, WallClock
+from robot.drivers.motors.can.joint_map import Bus, JointMap
+from robot.drivers.motors.can.ports import PythonCan, socket_path
+from robot.drivers.wiring import SimulatedPlant
+from robot.errors import ConfigError, Problem
+
+INTERFACE = "humanoid"
+"""Of python-can (`sim.devices.python_can`)."""
+POLL_S = 0.0001
+SAME_S = 1e-6
+"""Sums of periods are not exact."""
+
+
+def check(joints: JointMap) -> None:
+    """Whether a simulation can emulate such motors.
+
+    Raises:
+        ConfigError: with all that it cannot.
+    """
+    problems = [
+        Problem(f"{name}: a {joint.model} is not emulated", joints.file, suggestion="Damiao's are")
+        for name, joint in joints.joints.items()
+        if joint.family.asking is None
+    ]
+    if 1000 % joints.rate_hz:
+        text = f"{joints.rate_hz} Hz are no whole milliseconds, the steps of the physics"
+        problems.append(Problem(text, joints.file, suggestion="500"))
+    if problems:
+        raise ConfigError(problems)
+
+
+def buses_in(joints: JointMap, folder: Path) -> JointMap:
+    """A map whose buses are the sockets that a simulation listens at."""
+    buses = {
+        name: Bus(
+            channel=str(socket_path(folder, index)), interface=INTERFACE, bitrate_hz=bus.bitrate_hz
+        )
+        for index, (name, bus) in enumerate(joints.buses.items())
+    }
+    return msgspec.structs.replace(joints, buses=buses)
+
+
+class PlantClock:
+    """The time of a simulated plant in another process; it goes on in the plant's periods."""
+
+    def __init__(self, plant: SimulatedPlant) -> None:
+        """Of a plant that is open whenever the time is asked for."""
+        self._plant, self._wall = plant, WallClock()
+
+    def now_s(self) -> float:
+        """When its newest period began. Raises DriverError if it went away."""
+        return self._plant.sample.motors.stamp_s
+
+    def sleep_until(self, time_s: float) -> None:
+        """Wait. Raises DriverError if it went away."""
+        while self.now_s() < time_s - SAME_S:
+            self._wall.sleep_until(self._wall.now_s() + POLL_S)
+
+
+class EmulatedBuses(PythonCan):
+    """Buses of a simulated plant, which is opened and closed with them."""
+
+    def __init__(self, joints: JointMap, plant: SimulatedPlant, clock: Clock) -> None:
+        """Know them; nothing is opened."""
+        super().__init__(joints.buses, clock)
+        self._plant = plant
+        self._holds = False
+
+    def __enter__(self) -> Self:
+        """Open all. Raises DriverError if the plant or a bus is not there."""
+        self._plant.open()
+        self._holds = True
+        super().__enter__()
+        return self
+
+    def close(self) -> None:
+        """Close all."""
+        super().close()
+        if self._holds:
+            self._holds = False
+            self._plant.close()

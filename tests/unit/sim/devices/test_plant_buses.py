@@ -1,0 +1,170 @@
+"""Real frames over emulated buses turn the joints of the simulated body."""
+
+import msgspec
+import numpy as np
+import pytest
+
+from robot.control.loop import ControlLoop
+from robot.drivers.body_sample import BodySample
+from robot.drivers.motor_bus import MotorCommand
+from robot.drivers.motors.can import emulated, joint_map
+from robot.drivers.motors.can.joint_map import MotorRanges
+from robot.errors import ConfigError
+from robot.messages import Walk
+from robot.model import description
+from sim import world
+from sim.plant import Plant
+from tests.fakes.can_lockstep import Lockstep
+
+
+@pytest.fixture(scope="module")
+def robot():
+    return description.load("juno").driven_by("can")
+
+
+@pytest.fixture
+def rig(robot, tmp_path):
+    """Juno's map, some of its motors mounted the other way round, behind belts, off by an angle."""
+    found = joint_map.beside(robot)
+    other = {
+        "left_elbow": {"sign": -1, "offset_rad": 0.4},
+        "right_elbow": {"gear": 1.5, "offset_rad": -0.2, "velocity_limit_rad_s": 6.0},
+        "head_yaw": {"sign": -1, "gear": 2.0},
+    }
+    joints = {
+        name: msgspec.structs.replace(one, **other.get(name, {}))
+        for name, one in found.joints.items()
+    }
+    plant = Plant(world.load("empty"), robot, seed=0, noisy=False)
+    return Lockstep(plant, msgspec.structs.replace(found, joints=joints), tmp_path)
+
+
+def holding(robot, now_s: float) -> MotorCommand:
+    motors = list(robot.motors.values())
+    q, zero = np.array(robot.posture("nominal")), np.zeros(len(motors))
+    kp, kd = (np.array([getattr(one, key) for one in motors]) for key in ("kp", "kd"))
+    return MotorCommand(now_s, q, zero, zero, kp, np.minimum(kd, 5.0))
+
+
+def test_the_body_is_held_up_until_a_motor_is_told_to_give_torque(robot, rig):
+    height_m = rig.plant.where(robot.base_body).p[2]
+    with rig.driver() as driver:
+        for _ in range(50):
+            driver.read()
+        assert rig.plant.time_s > 0.1
+        assert rig.plant.where(robot.base_body).p[2] == height_m
+        driver.write(holding(robot, rig.now_s()))
+        driver.read()
+        driver.read()
+        assert rig.plant.data.time == pytest.approx(0.004)
+
+
+def test_what_motors_tell_is_where_the_joints_are(robot, rig):
+    """Through signs, gears and offsets, and steps as on the wire."""
+    with rig.driver() as driver:
+        for _ in range(100):
+            driver.write(holding(robot, rig.now_s()))
+            state = driver.read()
+        truth = rig.plant.read().motors
+        one_step = 25.0 / 65535 / np.abs(driver._gearing.turns)
+        moved = np.abs(truth.qd) * 0.002
+        assert (np.abs(state.q - truth.q) <= one_step + moved + 1e-4).all()
+        heavy = np.abs(truth.tau) > 5.0
+        assert heavy.sum() >= 4
+        np.testing.assert_allclose(state.tau[heavy], truth.tau[heavy], rtol=0.1, atol=0.5)
+        assert driver.reception.lost == 0
+        assert (state.age_s < 0.002 + 1e-9).all()
+
+
+def test_joints_obey_the_gains_of_a_command(robot, rig):
+    index = robot.motor_names.index("left_elbow")
+    with rig.driver() as driver:
+        for k in range(300):
+            command = holding(robot, rig.now_s())
+            command.q_des = command.q_des.copy()
+            command.q_des[index] -= min(0.3, 0.002 * k)
+            driver.write(command)
+            state = driver.read()
+        applied = rig.plant.data.ctrl[index] + rig.plant.model.actuator_biasprm[index, 1:3] @ (
+            truth := np.array((state.q[index], state.qd[index]))
+        )
+        wanted = (
+            command.kp[index] * (command.q_des[index] - truth[0]) - command.kd[index] * truth[1]
+        )
+        assert applied == pytest.approx(wanted, abs=0.15)
+        assert state.q[index] == pytest.approx(command.q_des[index], abs=0.1)
+
+
+def test_without_commands_motors_let_go_by_their_own_watchdogs(robot, rig):
+    with rig.driver() as driver:
+        for _ in range(50):
+            driver.write(holding(robot, rig.now_s()))
+            driver.read()
+        stopped_s = rig.now_s()
+        rig.sleep_until(stopped_s + 0.018)
+        assert {motor.status for motor in rig.buses.motors} == {1}
+        rig.sleep_until(stopped_s + 0.026)
+        assert {motor.status for motor in rig.buses.motors} == {0xD}
+        assert not rig.plant.model.actuator_biasprm[:, 1:3].any()
+        assert not rig.plant.data.ctrl.any()
+        driver._is_armed = False  # it was killed
+
+
+def test_the_controller_walks_by_frames_alone(robot, rig):
+    loop = ControlLoop(robot)
+    lines: list[str] = []
+    with rig.driver(lines.append) as driver:
+        for k in range(900):
+            state, felt = driver.read(), rig.plant.sample
+            driver.write(loop.tick(BodySample(state, felt.imu, felt.force)))
+            if k == 150:
+                loop.handle(Walk(stamp_s=rig.now_s(), id=1, forward_m_s=0.3, hold_s=9.0))
+        assert loop.mode == "walk"
+        assert driver.reception.lost == 0
+        assert not driver.alarms.on
+    assert rig.plant.where(robot.base_body).p[0] > 0.05
+    assert lines == [
+        "CAN: 33 joints, 899 periods at 500 Hz, 0 replies late (0.000%), 0 periods late"
+    ]
+
+
+def test_a_second_program_asks_for_nothing_while_the_first_commands(robot, rig):
+    """As a spare controller does: its questions would take the place of commands."""
+    with rig.driver() as first:
+        for _ in range(20):
+            first.write(holding(robot, rig.now_s()))
+            first.read()
+        ignored = first.reception.ignored
+        play = rig.sleep_until
+
+        def commanded(time_s: float) -> None:
+            """The first goes on with its periods while the second waits."""
+            while rig.plant.time_s < time_s - 1e-6:
+                for bus, frames in first._coding.commands(last)[0].items():
+                    first._ports.send_packed(bus, frames)
+                play(rig.plant.time_s + 0.002)
+
+        last = np.zeros((5, 33))
+        rig.sleep_until = commanded
+        with rig.driver() as second:
+            assert not second.claim()
+            seen = second.read()
+            assert (second.reception.misses == 0).all()
+            assert second.reception.most_replies == 1
+        rig.sleep_until = play
+        first.read()
+        assert first.reception.ignored == ignored
+        np.testing.assert_allclose(seen.q, first.read().q, atol=0.2)
+
+
+def test_what_nobody_emulates_is_refused(robot):
+    found = joint_map.beside(robot)
+    old = MotorRanges(position_rad=12.5, velocity_rad_s=50.0, torque_nm=25.0)
+    joints = {
+        **found.joints,
+        "head_yaw": msgspec.structs.replace(found.joints["head_yaw"], model="AK70-10", ranges=old),
+    }
+    with pytest.raises(ConfigError, match=r"head_yaw: a AK70-10 is not emulated"):
+        emulated.check(msgspec.structs.replace(found, joints=joints))
+    with pytest.raises(ConfigError, match="300 Hz are no whole milliseconds"):
+        emulated.check(msgspec.structs.replace(found, rate_hz=300))
