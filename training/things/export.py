@@ -79,7 +79,8 @@ def write(
         helper.make_tensor_value_info(name, TensorProto.FLOAT, ["count", *shape])
         for name, shape in shapes.items()
     ]
-    made = helper.make_tensor_value_info(graph[-1].name, TensorProto.FLOAT, None)
+    out = ["count", graph[-1].width, *([None, None] if graph[-1].kind == "plain" else [])]
+    made = helper.make_tensor_value_info(graph[-1].name, TensorProto.FLOAT, out)
     body = helper.make_graph(nodes, path.stem, given, [made], constants)
     model = helper.make_model(body, opset_imports=[helper.make_opsetid("", OPSET)], ir_version=9)
     helper.set_model_props(model, notes)

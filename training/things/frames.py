@@ -37,12 +37,21 @@ class Truth(NamedTuple):
 
 
 class Frame(NamedTuple):
-    """A picture, where it was taken from, and which thing each pixel shows (-1: none)."""
+    """A picture to learn from.
+
+    Attributes:
+        image: the picture.
+        X_WC: where it was taken from.
+        who: which thing each pixel shows, -1 for none, shape (height, width).
+        truth: of all things.
+        target: the one that is looked at.
+    """
 
     image: RgbdImage
     X_WC: SE3
     who: NDArray[np.int8]
     truth: Truth
+    target: int
 
 
 def save(frames: list[Frame], path: Path) -> None:
@@ -63,6 +72,7 @@ def save(frames: list[Frame], path: Path) -> None:
             f"{number}/p_W": one.truth.p_W,
             f"{number}/R_WO": one.truth.R_WO,
             f"{number}/size_m": one.truth.size_m,
+            f"{number}/target": np.array(one.target),
         }
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_suffix(".part.npz")
@@ -76,7 +86,7 @@ def load(path: Path) -> Iterator[Frame]:
         for number in range(sum(name.endswith("/who") for name in file.files)):
             item = {name: file[f"{number}/{name}"] for name in
                     ("colours", "depth", "who", "camera", "X_WC", "kinds", "colors", "p_W", "R_WO",
-                     "size_m")}  # fmt: skip
+                     "size_m", "target")}  # fmt: skip
             fx, fy, cx, cy, stamp_s = item["camera"].tolist()
             who, X_WC = item["who"], item["X_WC"]
             image = RgbdImage(
@@ -87,4 +97,4 @@ def load(path: Path) -> Iterator[Frame]:
             kinds, colors = tuple(item["kinds"].tolist()), tuple(item["colors"].tolist())
             counts = np.bincount(who[who >= 0].ravel(), minlength=len(kinds))
             truth = Truth(kinds, colors, item["p_W"], item["R_WO"], item["size_m"], counts)
-            yield Frame(image, SE3.from_rotation(X_WC[:3, :3], X_WC[:3, 3]), who, truth)
+            yield Frame(image, SE3.from_rotation(X_WC[:3, :3], X_WC[:3, 3]), who, truth, int(item["target"]))

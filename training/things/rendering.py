@@ -14,6 +14,8 @@ from training.things.splits import Split
 
 PICTURES = 4
 """Of a scene; to compile one takes as long as to render one."""
+WALKS, STEPS = "walks", 8
+"""Folders of pictures on the way to a thing begin so; pictures of a walk."""
 
 
 def bar() -> Progress:
@@ -23,17 +25,15 @@ def bar() -> Progress:
     )
 
 
-def paths(folder: Path, split: Split, first: int, count: int) -> list[Path]:
-    """The files of scenes."""
-    return [folder / split / f"{seed:06d}.npz" for seed in range(first, first + count)]
-
-
-def render(folder: Path, split: Split, first: int, count: int, *, jobs: int = 1) -> list[Path]:
-    """Render scenes that are not there yet; all of their files."""
-    every = paths(folder, split, first, count)
+def render(
+    folder: Path, split: Split, first: int, count: int, *, jobs: int = 1, walks: bool = False
+) -> list[Path]:
+    """Render scenes that are not there yet, or walks through them; all of their files."""
+    name = f"{WALKS}-{split}" if walks else split
+    every = [folder / name / f"{seed:06d}.npz" for seed in range(first, first + count)]
     missing = [path for path in every if not path.exists()]
     with bar() as progress:
-        task = progress.add_task(f"render: {split}", total=len(every))
+        task = progress.add_task(f"render: {name}", total=len(every))
         progress.advance(task, len(every) - len(missing))
         if jobs == 1:
             for path in missing:
@@ -54,4 +54,7 @@ def frames(files: list[Path]) -> Iterator[Frame]:
 
 def _scene(split: Split, path: Path) -> None:
     scene = Scene(split, int(path.stem))
+    if path.parent.name.startswith(WALKS):
+        save(scene.walk(STEPS), path)
+        return
     save([one for number in range(PICTURES) if (one := scene.frame(number)) is not None], path)

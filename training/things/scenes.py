@@ -39,7 +39,10 @@ LIES_SHARE = 0.08
 LYING = ("bottles", "cans", "boxes")
 AWAY_M = -50.0
 EYE_M, NEAR_M, FAR_M = (1.0, 1.35), 0.35, 2.6
-LEAST_PX = 60
+BEARING = (-1.9, 1.9)
+"""From the side without a wall, mostly."""
+END_M = 0.7
+"""Where a walk to a thing ends."""
 TRIES = 25
 SPLITS: tuple[Split, ...] = ("train", "choose", "judge")
 
@@ -86,16 +89,37 @@ class Scene:
 
     def frame(self, number: int) -> Frame | None:
         """A picture; None if no thing could be looked at."""
-        rng, data = self._rng, self._data
-        shown = self._place()
-        mujoco.mj_kinematics(self._model, data)
-        self._light()
-        mujoco.mj_camlight(self._model, data)
-        for _ in range(TRIES):
-            X_WC = self._look_at(shown[int(rng.integers(len(shown)))]) if shown else None
+        shown = self._arranged()
+        for _ in range(TRIES if shown else 0):
+            target = shown[int(self._rng.integers(len(shown)))]
+            distance_m = NEAR_M + (FAR_M - NEAR_M) * float(self._rng.random()) ** 1.5
+            X_WC = self._look_at(target, distance_m, float(self._rng.uniform(*BEARING)))
             if X_WC is not None:
-                return self._taken(X_WC, number)
+                return self._taken(X_WC, number, target)
         return None
+
+    def walk(self, count: int) -> list[Frame]:
+        """Pictures of one arrangement on the way to a thing; none if that is hidden from afar."""
+        shown = self._arranged()
+        for _ in range(TRIES if shown else 0):
+            target = shown[int(self._rng.integers(len(shown)))]
+            start_m, bearing = float(self._rng.uniform(1.6, 2.4)), float(self._rng.uniform(*BEARING))
+            ways = [
+                (away_m, self._look_at(target, away_m, bearing + float(self._rng.normal(0.0, 0.06))))
+                for away_m in np.linspace(start_m, END_M, count).tolist()
+            ]
+            if all(X_WC is not None for _, X_WC in ways):
+                return [self._taken(X_WC, number, target)
+                        for number, (_, X_WC) in enumerate(ways) if X_WC is not None]  # fmt: skip
+        return []
+
+    def _arranged(self) -> list[int]:
+        """Put things and lamps elsewhere; the things that are shown."""
+        shown = self._place()
+        mujoco.mj_kinematics(self._model, self._data)
+        self._light()
+        mujoco.mj_camlight(self._model, self._data)
+        return shown
 
     def _known(self, spec: mujoco.MjSpec, paint: Paint, number: int, split: Split) -> Item:
         rng, names = self._rng, kinds(split)
@@ -160,12 +184,10 @@ class Scene:
             self._paints[:, :3] * np.exp(rng.normal(0.0, 0.08, (model.nmat, 3))), 0.0, 1.0
         )
 
-    def _look_at(self, number: int) -> SE3 | None:
+    def _look_at(self, number: int, distance_m: float, bearing: float) -> SE3 | None:
         """Where the camera is when it looks at a thing; None if that is hidden."""
         rng = self._rng
         target = self._data.xpos[self._items[number].body]
-        distance_m = NEAR_M + (FAR_M - NEAR_M) * float(rng.random()) ** 1.5
-        bearing = float(rng.uniform(-1.9, 1.9))  # from the side without a wall, mostly
         eye = np.array([target[0] + distance_m * math.cos(bearing),
                         target[1] + distance_m * math.sin(bearing), rng.uniform(*EYE_M)])  # fmt: skip
         sight = target - eye
@@ -181,7 +203,7 @@ class Scene:
         R_EC = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
         return SE3.from_rotation(X_WE.rotation() @ R_EC, eye)
 
-    def _taken(self, X_WC: SE3, number: int) -> Frame:
+    def _taken(self, X_WC: SE3, number: int, target: int) -> Frame:
         rng = self._rng
         tracer = Tracer(self._model, self._data, PINHOLE)
         view = tracer.look(np.array(X_WC.p), X_WC.rotation())
@@ -196,7 +218,7 @@ class Scene:
         )  # fmt: skip
         bodies = np.where(tracer.met >= 0, self._model.geom_bodyid[tracer.met], -1)
         who: NDArray[np.int8] = self._item_of_body[bodies]
-        return Frame(image, X_WC, who, self._truth(who))
+        return Frame(image, X_WC, who, self._truth(who), target)
 
     def _truth(self, who: NDArray[np.int8]) -> Truth:
         bodies = [item.body for item in self._items]

@@ -11,6 +11,7 @@ import numpy as np
 
 from robot.perception.detector.network import session
 from robot.perception.things.inputs import Floats
+from robot.perception.things.naming import Classes, Sure
 
 HERE = Path(__file__).parent
 FINDER, NAMER = HERE / "finder.onnx", HERE / "namer.onnx"
@@ -32,24 +33,24 @@ class Namer:
     """Crops in, what they are, where, how large out.
 
     Attributes:
-        classes: what it tells apart; "" is what has no name, "nothing" what is no thing.
-        families: of each class; of the last two they are the same.
-        sure: what `eyes` takes for certain: of a kind, of a family.
+        classes: what it tells apart.
+        sure: what it was found to be right about.
+        heat: by how much it is too sure of itself.
+        spread: by how much its errors of places are larger than it says.
     """
 
     def __init__(self, path: Path = NAMER) -> None:
         """Load it. Raises ConfigError if onnxruntime is missing, or the file is no network."""
         self._session: Any = session(path)
         notes: dict[str, str] = self._session.get_modelmeta().custom_metadata_map
-        self.classes = tuple(notes["classes"].split(","))
-        self.families = tuple(notes["families"].split(","))
-        self.sure = float(notes["sure_kind"]), float(notes["sure_family"])
-        self.spread = float(notes["spread"])
-        self.heat = float(notes["heat"])
+        names, families = (tuple(notes[one].split(",")) for one in ("classes", "families"))
+        self.classes = Classes(names, families)
+        self.sure = Sure(float(notes["sure_kind"]), float(notes["sure_family"]))
+        self.heat, self.spread = float(notes["heat"]), float(notes["spread"])
 
     def __call__(self, planes: Floats, numbers: Floats) -> Floats:
         """Its answers, a row a crop: `crops.SIDE_PX` planes, and numbers."""
         if not len(planes):
-            return np.empty((0, len(self.classes) + 10), dtype=np.float32)
+            return np.empty((0, len(self.classes.names) + 10), dtype=np.float32)
         given = {"image": planes, "numbers": numbers}
         return np.asarray(self._session.run(None, given)[0], np.float32)
