@@ -95,7 +95,8 @@ def _learn(name: str, made: Iterator[tuple[float, Learnt]], steps: int) -> Learn
     learnt: Learnt | None = None
     with bar() as progress:
         task = progress.add_task(name, total=steps)
-        for loss, learnt in made:
+        for loss, now in made:
+            learnt = now
             losses.append(loss)
             mean = float(np.mean(losses[-100:]))
             progress.update(task, advance=1, description=f"{name}: loss {mean:.3f}")

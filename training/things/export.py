@@ -23,7 +23,8 @@ def write(
 
     Args:
         path: of the file.
-        graph, learnt: the network.
+        graph: the network.
+        learnt: its weights.
         shapes: of what is given, pictures as (rows, columns, channels); how many is left open.
         notes: for the file's metadata.
     """

@@ -97,4 +97,6 @@ def load(path: Path) -> Iterator[Frame]:
             kinds, colors = tuple(item["kinds"].tolist()), tuple(item["colors"].tolist())
             counts = np.bincount(who[who >= 0].ravel(), minlength=len(kinds))
             truth = Truth(kinds, colors, item["p_W"], item["R_WO"], item["size_m"], counts)
-            yield Frame(image, SE3.from_rotation(X_WC[:3, :3], X_WC[:3, 3]), who, truth, int(item["target"]))
+            yield Frame(
+                image, SE3.from_rotation(X_WC[:3, :3], X_WC[:3, 3]), who, truth, int(item["target"])
+            )

@@ -37,7 +37,7 @@ Graph = tuple[Layer, ...]
 
 
 def finder() -> Graph:
-    """A U of four levels: for each second pixel whether it is of a thing, and where its middle is."""
+    """A U of four levels: which pixels are of a thing, and where the middle of that is."""
     return (
         Layer("fold", "fold", (IMAGE,)),
         Layer("a0", "conv", ("fold",), 16, size=1),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -94,7 +95,7 @@ class Counts(NamedTuple):
 
 def counts(some: list[Look], eyes: Eyes, sure: Sure) -> Counts:
     """What became of the names; F1 is of kinds, what is named where nothing is counts as wrong."""
-    known = [one for one in some if one.kind in CLASSES and one.kind not in ("", "nothing")]
+    known = _known(some)
     right = wrong = right_family = wrong_family = false = 0
     for one in some:
         if one.seen is None:
@@ -160,23 +161,16 @@ def report(some: list[Look], eyes: Eyes, f1_at: float) -> str:
     """Tables for a page."""
     sure = eyes.namer.sure
     lines = [f"sure: kind {sure.kind:.3f}, family {sure.family:.3f}; F1 at {f1_at:.2f}", ""]
-    lines += ["| pixels | things | found | right kind | wrong kind | family only | wrong family | F1 |",
-              "|---|---|---|---|---|---|---|---|"]  # fmt: skip
+    head = ("pixels", "things", "found", "right", "wrong", "family", "wrong family")
+    lines += ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
     for most_m in (NEAR_M, FAR_M):
-        for low, high in [*zip(SIZES_PX, SIZES_PX[1:], strict=False), (100, SIZES_PX[-1])]:
-            part = [one for one in within(some, most_m, low)
-                    if one.kind in CLASSES and (one.kind not in ("", "nothing"))
-                    and one.pixels < high]  # fmt: skip
-            if low == 100 and high > 1000:
-                part += [one for one in within(some, most_m) if one.kind == "nothing"]
-                part += [one for one in within(some, most_m, low) if one.kind in ("", *STRANGERS)]
-            if not part:
-                continue
-            at = counts(part, eyes, sure)
-            f1 = counts(part, eyes, Sure(f1_at, 2.0)).f1
-            name = f"{low} to {high}, up to {most_m} m" if high < 1000 else f"from {low}, up to {most_m} m"
-            shares = " | ".join(f"{100 * v:.1f} %" for v in at[1:6])
-            lines.append(f"| {name} | {at.there} | {shares} | {f1:.3f} |")
+        for low, high in itertools.pairwise(SIZES_PX):
+            part = [one for one in _known(within(some, most_m, low)) if one.pixels < high]
+            lines.append(_row(f"from {low}, up to {most_m} m", counts(part, eyes, sure)))
+        every = within(some, most_m)
+        lines.append(_row(f"all from 100, up to {most_m} m", counts(_known(every), eyes, sure)))
+        f1 = counts(every, eyes, Sure(f1_at, 2.0)), counts(every, eyes, sure)
+        lines.append(f"F1 up to {most_m} m: {f1[0].f1:.3f}; as sure as it ships {f1[1].f1:.3f}")
     for name, of in (("no kind", ("",)), ("kinds never learnt", STRANGERS)):
         part = [one for one in within(some, FAR_M) if one.kind in of]
         at = counts(part, eyes, sure)
@@ -191,6 +185,15 @@ def report(some: list[Look], eyes: Eyes, f1_at: float) -> str:
     lines.append(f"colour among words {np.mean(hits):.3f}, the first {np.mean(first):.3f}; "
                  f"upright right {np.mean(up):.3f}; seen where nothing is {len(alarms)}")  # fmt: skip
     return "\n".join(lines)
+
+
+def _known(some: list[Look]) -> list[Look]:
+    """Things of kinds that were learnt."""
+    return [one for one in some if one.kind in CLASSES and one.kind not in ("", "nothing")]
+
+
+def _row(name: str, at: Counts) -> str:
+    return f"| {name} | {at.there} | " + " | ".join(f"{100 * v:.1f} %" for v in at[1:6]) + " |"
 
 
 def _places(some: list[Look]) -> list[str]:

@@ -59,7 +59,8 @@ def run(
 
     Args:
         graph: the network.
-        weights, even: of it.
+        weights: of it.
+        even: running statistics of its normalisations.
         given: pictures, shape (n, rows, columns, channels), and numbers, shape (n, k).
         learns: whether the statistics are those of the batch.
     """
@@ -107,8 +108,10 @@ def run(
 
 
 def step(loss: Callable[..., Any]) -> Callable[..., tuple[Learnt, Any]]:
-    """A step of Adam [Kingma, Ba 2015] with decaying weights, for a loss of weights, statistics
-    and a batch that gives its value and the statistics.
+    """A step of Adam [Kingma, Ba 2015] with decaying weights.
+
+    Args:
+        loss: of weights, statistics and a batch; it gives its value, and the statistics after it.
     """
 
     def one(state: Learnt, rate: Any, batch: Any) -> tuple[Learnt, Any]:

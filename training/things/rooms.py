@@ -63,7 +63,7 @@ def furnish(
         along += size[1] / 2 + float(rng.choice((0.02, rng.uniform(0.1, 0.6))))
         boards = tuple(np.cumsum(rng.uniform(0.30, 0.45, 3)) + 0.1) if kind == "shelf" else ()
         item = Furniture(id=str(number), kind=kind, at_m=(0.0, 0.0), size_m=size, boards_m=boards)
-        places += _stand(spec, paint, item, X_WF, rooms, rng)
+        places += _stand(spec, paint, item, X_WF, rooms=rooms, rng=rng)
     if rng.random() < WALL_SHARE:
         wall = _paint(paint, "wall", rooms, rng)
         x = -float(rng.uniform(0.55, 1.2))

@@ -103,9 +103,15 @@ class Scene:
         shown = self._arranged()
         for _ in range(TRIES if shown else 0):
             target = shown[int(self._rng.integers(len(shown)))]
-            start_m, bearing = float(self._rng.uniform(1.6, 2.4)), float(self._rng.uniform(*BEARING))
+            start_m, bearing = (
+                float(self._rng.uniform(1.6, 2.4)),
+                float(self._rng.uniform(*BEARING)),
+            )
             ways = [
-                (away_m, self._look_at(target, away_m, bearing + float(self._rng.normal(0.0, 0.06))))
+                (
+                    away_m,
+                    self._look_at(target, away_m, bearing + float(self._rng.normal(0.0, 0.06))),
+                )
                 for away_m in np.linspace(start_m, END_M, count).tolist()
             ]
             if all(X_WC is not None for _, X_WC in ways):
@@ -188,8 +194,9 @@ class Scene:
         """Where the camera is when it looks at a thing; None if that is hidden."""
         rng = self._rng
         target = self._data.xpos[self._items[number].body]
-        eye = np.array([target[0] + distance_m * math.cos(bearing),
-                        target[1] + distance_m * math.sin(bearing), rng.uniform(*EYE_M)])  # fmt: skip
+        x, y = (float(target[0]) + distance_m * math.cos(bearing),
+                float(target[1]) + distance_m * math.sin(bearing))  # fmt: skip
+        eye = np.array([x, y, rng.uniform(*EYE_M)])
         sight = target - eye
         away_m = float(np.linalg.norm(sight))
         hit = np.full(1, -1, dtype=np.int32)

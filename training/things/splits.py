@@ -32,11 +32,15 @@ class Rooms(NamedTuple):
     variants: tuple[int, int]
 
 
+_WARM, _COLD = (-0.30, 0.45), (0.47, 0.68)
+_USUAL = ("table", "counter", "shelf", "box")
 ROOMS: dict[Split, Rooms] = {
-    "train": Rooms((-0.30, 0.45), ("tiles", "wood"), ("table", "counter", "shelf", "box"), (0, 400)),
-    "choose": Rooms((-0.30, 0.45), ("tiles", "wood"), ("table", "counter", "shelf", "box"), (400, 500)),
-    "judge": Rooms((0.47, 0.68), ("carpet", "concrete"), ("table", "counter", "shelf", "cabinet", "sofa", "chair"), (500, 999)),
-}  # fmt: skip
+    "train": Rooms(_WARM, ("tiles", "wood"), _USUAL, (0, 400)),
+    "choose": Rooms(_WARM, ("tiles", "wood"), _USUAL, (400, 500)),
+    "judge": Rooms(
+        _COLD, ("carpet", "concrete"), (*_USUAL, "cabinet", "sofa", "chair"), (500, 999)
+    ),
+}
 """Rooms that figures are told of are blue, on carpet or concrete, with furniture that was never
 seen in training; and the forms, colours and prints of the things in them are others."""
 

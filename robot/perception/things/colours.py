@@ -55,10 +55,10 @@ def _hues(
     rgb: NDArray[np.float32], high: NDArray[np.float32], low: NDArray[np.float32]
 ) -> NDArray[np.float32]:
     """The hue of each pixel, from 0 to 360 degrees; 0 of what is grey."""
-    span = np.maximum(high - low, 1e-6)
-    red, green, blue = rgb.T
-    hue = np.where(
-        high == red, (green - blue) / span % 6.0,
-        np.where(high == green, (blue - red) / span + 2.0, (red - green) / span + 4.0),
-    )  # fmt: skip
-    return (60.0 * hue).astype(np.float32)
+    span = np.maximum(high - low, np.float32(1e-6))
+    red, green, blue = rgb[:, 0], rgb[:, 1], rgb[:, 2]
+    hue: NDArray[np.float32] = (red - green) / span + np.float32(4.0)
+    most_green, most_red = high == green, high == red
+    hue[most_green] = ((blue - red) / span + np.float32(2.0))[most_green]
+    hue[most_red] = ((green - blue) / span % np.float32(6.0))[most_red]
+    return np.float32(60.0) * hue

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from robot.messages import RgbdImage
 from robot.perception.things import colours
-from robot.perception.things.crops import NUMBERS, SIDE_PX, Crop, crop
 from robot.perception.things.crops import CHANNELS as PLANES
+from robot.perception.things.crops import NUMBERS, SIDE_PX, Crop, crop
 from robot.perception.things.inputs import Floats, Sight, sight, tensor
 from robot.perception.things.instances import Instance, instances
 from robot.perception.things.naming import Name, Sure, chances

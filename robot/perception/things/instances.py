@@ -30,7 +30,7 @@ MOST = 48
 
 
 class Instance(NamedTuple):
-    """A thing in a picture: which pixels show it, shape (height, width), and how likely it is one."""
+    """A thing in a picture: which pixels show it, shape (height, width), how likely it is one."""
 
     pixels: Mask
     score: float

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from robot.se3 import Array
 
@@ -54,7 +54,7 @@ class Classes(NamedTuple):
         best = max(kinds, key=lambda k: float(chances[k]))
         if chances[best] >= sure.kind:
             return Name(self.names[best], self.families[best], float(chances[best]))
-        totals = {family: 0.0 for family in self.families}
+        totals = dict.fromkeys(self.families, 0.0)
         for k in kinds:
             totals[self.families[k]] += float(chances[k])
         family = max(totals, key=lambda one: totals[one])
@@ -63,8 +63,8 @@ class Classes(NamedTuple):
         return Name("", "", 1.0 - float(chances[best]))
 
 
-def chances(odds: Sequence[float] | Array, heat: float) -> Array:
+def chances(odds: NDArray[np.floating[Any]], heat: float) -> Array:
     """Probabilities from what the namer says; heat above 1 makes it less sure of itself."""
-    scaled = np.asarray(odds, dtype=np.float64) / heat
+    scaled = odds.astype(np.float64) / heat
     raised = np.exp(scaled - scaled.max())
     return raised / raised.sum()

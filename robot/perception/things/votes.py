@@ -55,7 +55,7 @@ class Sighted:
 
     @property
     def chances(self) -> Array:
-        """Probabilities of the classes: a geometric mean of all looks, sharpened by their number."""
+        """Probabilities of the classes: a geometric mean of all looks, and sharper than that."""
         power = 1.0 / (SHARED * self.looks + 1.0 - SHARED)
         raised = np.exp((self._logs - self._logs.max()) * power)
         return raised / raised.sum()
@@ -96,7 +96,9 @@ class Votes:
                 continue
             off = seen.p_W - track.p_W
             away_m = float(np.linalg.norm(off))
-            sigmas = float(np.sqrt(off @ np.linalg.solve(seen.covariance_W + track.covariance_W, off)))
+            sigmas = float(
+                np.sqrt(off @ np.linalg.solve(seen.covariance_W + track.covariance_W, off))
+            )
             near = away_m < NEAR_M or (sigmas < NEAR_SIGMAS and away_m < 3.0 * NEAR_M)
             if near and away_m < least:
                 best, least = track, away_m
