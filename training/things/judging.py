@@ -174,16 +174,16 @@ def report(some: list[Look], eyes: Eyes, f1_at: float) -> str:
     for name, of in (("no kind", ("",)), ("kinds never learnt", STRANGERS)):
         part = [one for one in within(some, FAR_M) if one.kind in of]
         at = counts(part, eyes, sure)
-        lines.append(f"{name}: {at.there}, found {at.found:.3f}, named a kind {at.wrong:.4f}, "
-                     f"a family that is right {at.family:.3f}, wrong {at.wrong_family:.4f}")  # fmt: skip
+        text = f"{name}: {at.there}, found {at.found:.3f}, named a kind {at.wrong:.4f}, "
+        lines.append(f"{text}a family, right {at.family:.3f}, wrong {at.wrong_family:.4f}")
     lines += _places(some)
     named = [one for one in within(some, FAR_M) if one.seen is not None]
     alarms = [one for one in some if one.kind == "nothing" and not one.is_double]
     hits = [one.colour in one.seen.colours for one in named if one.seen and one.colour]
     first = [one.colour == one.seen.colours[0] for one in named if one.seen and one.colour]
     up = [(one.seen.upright > 0.5) == one.is_upright for one in named if one.seen]
-    lines.append(f"colour among words {np.mean(hits):.3f}, the first {np.mean(first):.3f}; "
-                 f"upright right {np.mean(up):.3f}; seen where nothing is {len(alarms)}")  # fmt: skip
+    text = f"colour among words {np.mean(hits):.3f}, the first {np.mean(first):.3f}; "
+    lines.append(f"{text}upright right {np.mean(up):.3f}; seen where nothing is {len(alarms)}")
     return "\n".join(lines)
 
 

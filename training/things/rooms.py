@@ -79,7 +79,7 @@ def furnish(
 
 
 def _stand(
-    spec: mujoco.MjSpec, paint: Paint, item: Furniture, X_WF: SE3, rooms: Rooms,
+    spec: mujoco.MjSpec, paint: Paint, item: Furniture, X_WF: SE3, *, rooms: Rooms,
     rng: np.random.Generator,
 ) -> list[Place]:  # fmt: skip
     """Add a piece of furniture out of its form's parts; its places."""

@@ -57,8 +57,8 @@ def _hues(
     """The hue of each pixel, from 0 to 360 degrees; 0 of what is grey."""
     span = np.maximum(high - low, np.float32(1e-6))
     red, green, blue = rgb[:, 0], rgb[:, 1], rgb[:, 2]
-    hue: NDArray[np.float32] = (red - green) / span + np.float32(4.0)
+    hue = np.asarray((red - green) / span + np.float32(4.0), np.float32)
     most_green, most_red = high == green, high == red
     hue[most_green] = ((blue - red) / span + np.float32(2.0))[most_green]
     hue[most_red] = ((green - blue) / span % np.float32(6.0))[most_red]
-    return np.float32(60.0) * hue
+    return np.asarray(np.float32(60.0) * hue, np.float32)
