@@ -12,10 +12,9 @@ import argparse
 import itertools
 import os
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 os.environ.setdefault("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false")  # one core, no more
 
@@ -29,12 +28,24 @@ from robot.perception.things.networks import Finder, Namer
 from training.things import export, finding, graphs, judging, naming
 from training.things.frames import load
 from training.things.networks import Learnt
-from training.things.rendering import bar, frames, render
+from training.things.rendering import bar, frames, render, render_homes
 from training.things.splits import family
 
 BATCH = 96
+WALKS_FROM = 50_000
+"""The seed of the first walk: none of these scenes is in the other pictures."""
 MOST_WRONG = 0.005
 """Of the things that thresholds are chosen on, so many may get a wrong name."""
+
+
+class Sets(NamedTuple):
+    """Files of pictures: to learn from, to choose thresholds on, and three to judge by."""
+
+    learn: list[Path]
+    choose: list[Path]
+    judge: list[Path]
+    walks: list[Path]
+    homes: list[Path]
 
 
 def main() -> int:
@@ -44,6 +55,7 @@ def main() -> int:
     asked.add_argument("--scenes", type=int, default=150, help="to learn from, 4 pictures each")
     asked.add_argument("--others", type=int, default=40, help="to choose on, and to judge by")
     asked.add_argument("--walks", type=int, default=20, help="to things, to judge by")
+    asked.add_argument("--homes", type=int, default=4, help="made by another generator, likewise")
     asked.add_argument("--finder-steps", type=int, default=300, help="of 8 pictures")
     asked.add_argument("--namer-steps", type=int, default=600, help=f"of {BATCH} crops")
     asked.add_argument("--jobs", type=int, default=1, help="processes that render")
@@ -54,39 +66,55 @@ def main() -> int:
     only = options.only or ("render", "finder", "namer", "judge")
     home: Path = shipped.HERE if options.ship else options.folder
     finder, namer = home / shipped.FINDER.name, home / shipped.NAMER.name
-    jobs = options.jobs if "render" in only else 1
-    learn = render(options.folder, "train", 0, options.scenes, jobs=jobs)
-    choose = render(options.folder, "choose", 0, options.others, jobs=jobs)
-    judge = render(options.folder, "judge", 0, options.others, jobs=jobs)
-    walks = render(options.folder, "judge", 50_000, options.walks, jobs=jobs, walks=True)
+    sets = _rendered(options)
     if "finder" in only:
-        made = finding.learn(learn, steps=options.finder_steps, seed=options.seed)
         shape: tuple[Any, ...] = ("rows", "columns", SEEN)
+        made = finding.learn(sets.learn, steps=options.finder_steps, seed=options.seed)
         learnt = _learn("learn the finder", made, options.finder_steps)
         export.write(finder, finding.GRAPH, learnt, {graphs.IMAGE: shape}, {})
     if "namer" in only:
-        rng = np.random.default_rng(options.seed)
-        with bar() as progress:
-            every = progress.track(learn, description="cut things out")
-            files = (frame for path in every for frame in load(path))
-            lessons = naming.gathered(naming.lessons(files, Finder(finder), rng))
-        told = np.bincount(lessons.names, minlength=len(naming.CLASSES))
-        print(f"{len(lessons.names)} crops, {told[-2]} of no kind, {told[-1]} of nothing")
-        made = naming.learn(lessons, steps=options.namer_steps, batch=BATCH, seed=options.seed)
-        learnt = _learn("learn the namer", made, options.namer_steps)
+        learnt = _named(sets, Finder(finder), options)
         _write_namer(namer, learnt, {"sure_kind": 0.9, "sure_family": 0.9, "heat": 1, "spread": 1})
-        _write_namer(namer, learnt, _chosen(Eyes(Finder(finder), Namer(namer)), choose))
+        _write_namer(namer, learnt, _chosen(Eyes(Finder(finder), Namer(namer)), sets.choose))
     if "judge" in only:
-        eyes = Eyes(Finder(finder), Namer(namer))
-        f1_at = judging.best_f1(judging.looked(eyes, frames(choose)), eyes)
-        begun_s = time.process_time()
-        told_of = judging.looked(eyes, frames(judge))
-        each_ms = 1e3 * (time.process_time() - begun_s) / max(1, len(judge) * 4)
-        print(judging.report(told_of, eyes, f1_at))
-        print(judging.walked(eyes, (list(load(path)) for path in walks)))
+        _judge(Eyes(Finder(finder), Namer(namer)), sets)
         sizes = [round(path.stat().st_size / 1e6, 2) for path in (finder, namer)]
-        print(f"{each_ms:.0f} ms a picture, judging included; files {sizes} MB")
+        print(f"files {sizes} MB")
     return 0
+
+
+def _rendered(options: argparse.Namespace) -> Sets:
+    """Every picture there has to be; those that are there stay."""
+    folder, jobs, others = options.folder, options.jobs, options.others
+    return Sets(
+        render(folder, "train", 0, options.scenes, jobs=jobs),
+        render(folder, "choose", 0, others, jobs=jobs),
+        render(folder, "judge", 0, others, jobs=jobs),
+        render(folder, "judge", WALKS_FROM, options.walks, jobs=jobs, walks=True),
+        render_homes(folder, 0, options.homes, jobs=jobs),
+    )
+
+
+def _named(sets: Sets, finder: Finder, options: argparse.Namespace) -> Learnt:
+    """Cut out what the finder finds, and learn what it is."""
+    with bar() as progress:
+        every = progress.track(sets.learn, description="cut things out")
+        rng = np.random.default_rng(options.seed)
+        files = (frame for path in every for frame in load(path))
+        lessons = naming.gathered(naming.lessons(files, finder, rng))
+    told = np.bincount(lessons.names, minlength=len(naming.CLASSES))
+    print(f"{len(lessons.names)} crops, {told[-2]} of no kind, {told[-1]} of nothing")
+    made = naming.learn(lessons, steps=options.namer_steps, batch=BATCH, seed=options.seed)
+    return _learn("learn the namer", made, options.namer_steps)
+
+
+def _judge(eyes: Eyes, sets: Sets) -> None:
+    """Figures on pictures that nothing was learnt or chosen from."""
+    f1_at = judging.best_f1(judging.looked(eyes, frames(sets.choose)), eyes)
+    print(judging.report(judging.looked(eyes, frames(sets.judge)), eyes, f1_at))
+    print(judging.walked(eyes, (list(load(path)) for path in sets.walks)))
+    print("homes:")
+    print(judging.report(judging.looked(eyes, frames(sets.homes)), eyes, f1_at))
 
 
 def _learn(name: str, made: Iterator[tuple[float, Learnt]], steps: int) -> Learnt:
@@ -122,8 +150,6 @@ def _chosen(eyes: Eyes, choose: list[Path]) -> dict[str, Any]:
     heat = min(heats, key=unlikely)
     sigmas = judging.mahalanobis(seen)
     spread = float(np.percentile(sigmas, 90.0)) / 2.5  # 90 % of a Gaussian in space are within
-    for one in seen:
-        assert one.seen is not None
     eyes.namer.heat = heat
     again = judging.looked(eyes, frames(choose))
     sure = judging.calibrated(

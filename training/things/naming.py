@@ -97,7 +97,7 @@ def lessons(
     for frame in frames:
         seen = sight(frame.image, frame.X_WC)
         assert seen is not None
-        for one in instances(finder(tensor(seen))):
+        for one in instances(finder(tensor(seen)), seen.depth_m.shape):
             if (made := learned(frame, seen, one.pixels, one.score)) is not None:
                 yield made
         for thing in np.flatnonzero(frame.truth.pixels >= LEAST_PX).tolist():

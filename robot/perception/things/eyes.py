@@ -87,7 +87,7 @@ class Eyes:
             return []
         found = [
             (one, cut)
-            for one in instances(self.finder(tensor(seen)))
+            for one in instances(self.finder(tensor(seen)), seen.depth_m.shape)
             if (cut := crop(seen, one.pixels, one.score)) is not None
         ]
         planes = np.zeros((len(found), SIDE_PX, SIDE_PX, PLANES), dtype=np.float32)

@@ -36,12 +36,13 @@ class Instance(NamedTuple):
     score: float
 
 
-def instances(answers: Floats) -> list[Instance]:
+def instances(answers: Floats, shape: tuple[int, ...]) -> list[Instance]:
     """The things of a picture, the likeliest first.
 
     Args:
         answers: of the finder, shape (3, rows, columns): log-odds, and the offset to the middle
             across and down.
+        shape: of the picture, rows and columns.
     """
     odds, across, down = answers
     likely = 1.0 / (1.0 + np.exp(-np.clip(odds, -30.0, 30.0)))
@@ -70,6 +71,7 @@ def instances(answers: Floats) -> list[Instance]:
             continue
         small = np.zeros(likely.shape, dtype=np.bool_)
         small[rows[own], columns[own]] = True
-        pixels = small.repeat(HALF, axis=0).repeat(HALF, axis=1)
+        pixels = np.zeros(shape[:2], dtype=np.bool_)
+        pixels[: HALF * height, : HALF * width] = small.repeat(HALF, axis=0).repeat(HALF, axis=1)
         found.append(Instance(pixels, float(weights[own].mean())))
     return sorted(found, key=lambda one: -one.score)

@@ -11,10 +11,12 @@ import numpy as np
 
 from robot.perception.detector.network import session
 from robot.perception.things.inputs import Floats
+from robot.perception.things.instances import HALF
 from robot.perception.things.naming import Classes, Sure
 
 HERE = Path(__file__).parent
 FINDER, NAMER = HERE / "finder.onnx", HERE / "namer.onnx"
+STEP_PX = 16
 
 
 class Finder:
@@ -26,7 +28,12 @@ class Finder:
 
     def __call__(self, tensor: Floats) -> Floats:
         """Its answers to one picture (`inputs.tensor`), shape (3, rows, columns)."""
-        return np.asarray(self._session.run(None, {"image": tensor[None]})[0][0], np.float32)
+        rows, columns = tensor.shape[:2]
+        # Its levels halve four times: what is missing to that is grey without depth.
+        missing = (0, -rows % STEP_PX), (0, -columns % STEP_PX), (0, 0)
+        given = np.pad(tensor, missing) if -rows % STEP_PX or -columns % STEP_PX else tensor
+        said = np.asarray(self._session.run(None, {"image": given[None]})[0][0], np.float32)
+        return said[:, : rows // HALF, : columns // HALF]
 
 
 class Namer:

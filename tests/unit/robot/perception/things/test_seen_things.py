@@ -36,7 +36,7 @@ def answers(*middles: tuple[float, float], half_px: int = 5) -> np.ndarray:
 
 
 def test_two_things_that_touch_are_two():
-    found = instances(answers((20, 30), (30, 30)))
+    found = instances(answers((20, 30), (30, 30)), (120, 160))
     assert len(found) == 2
     middles = sorted(float(np.nonzero(one.pixels)[1].mean()) for one in found)
     assert middles == pytest.approx([39.5, 59.5], abs=1.0)
@@ -44,7 +44,7 @@ def test_two_things_that_touch_are_two():
 
 
 def test_where_nothing_is_nothing_is_found():
-    assert instances(answers()) == []
+    assert instances(answers(), (120, 160)) == []
 
 
 def picture(depth_m: np.ndarray, colour: tuple[int, int, int] = (40, 160, 60)) -> RgbdImage:
