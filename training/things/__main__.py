@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import itertools
+import math
 import os
 import sys
 from collections.abc import Iterator
@@ -59,6 +60,7 @@ def main() -> int:
     asked.add_argument("--finder-steps", type=int, default=300, help="of 8 pictures")
     asked.add_argument("--namer-steps", type=int, default=600, help=f"of {BATCH} crops")
     asked.add_argument("--jobs", type=int, default=1, help="processes that render")
+    asked.add_argument("--minutes", type=float, default=math.inf, help="a network, at most")
     asked.add_argument("--seed", type=int, default=1)
     asked.add_argument("--only", choices=("render", "finder", "namer", "judge"), action="append")
     asked.add_argument("--ship", action="store_true", help="into the package")
@@ -69,7 +71,8 @@ def main() -> int:
     sets = _rendered(options)
     if "finder" in only:
         shape: tuple[Any, ...] = ("rows", "columns", SEEN)
-        made = finding.learn(sets.learn, steps=options.finder_steps, seed=options.seed)
+        made = finding.learn(sets.learn, steps=options.finder_steps, seed=options.seed,
+                             minutes=options.minutes)  # fmt: skip
         learnt = _learn("learn the finder", made, options.finder_steps)
         export.write(finder, finding.GRAPH, learnt, {graphs.IMAGE: shape}, {})
     if "namer" in only:
@@ -104,7 +107,8 @@ def _named(sets: Sets, finder: Finder, options: argparse.Namespace) -> Learnt:
         lessons = naming.gathered(naming.lessons(files, finder, rng))
     told = np.bincount(lessons.names, minlength=len(naming.CLASSES))
     print(f"{len(lessons.names)} crops, {told[-2]} of no kind, {told[-1]} of nothing")
-    made = naming.learn(lessons, steps=options.namer_steps, batch=BATCH, seed=options.seed)
+    made = naming.learn(lessons, steps=options.namer_steps, batch=BATCH, seed=options.seed,
+                        minutes=options.minutes)  # fmt: skip
     return _learn("learn the namer", made, options.namer_steps)
 
 
@@ -128,7 +132,8 @@ def _learn(name: str, made: Iterator[tuple[float, Learnt]], steps: int) -> Learn
             losses.append(loss)
             mean = float(np.mean(losses[-100:]))
             progress.update(task, advance=1, description=f"{name}: loss {mean:.3f}")
-    for start in itertools.islice(range(0, steps, 200), 1, None):
+    print(f"{name}: {len(losses)} steps")
+    for start in itertools.islice(range(0, len(losses), 200), 1, None):
         print(f"{name}: steps to {start}: {np.mean(losses[start - 200 : start]):.3f}")
     assert learnt is not None
     return learnt

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -60,14 +61,16 @@ def loss(weights: Any, even: Any, batch: Any) -> Any:
     return (odds.sum() + 2.0 * off.sum()) / total, even
 
 
-def learn(files: list[Path], *, steps: int, seed: int) -> Iterator[tuple[float, Learnt]]:
+def learn(
+    files: list[Path], *, steps: int, seed: int, minutes: float = math.inf
+) -> Iterator[tuple[float, Learnt]]:
     """The loss of each step, and what was learnt until then."""
     rng = np.random.default_rng(seed)
     state, one = networks.first(GRAPH, graphs.FINDER_IN, seed), networks.step(loss)
-    for number in range(steps):
+    for rate in networks.rates(steps, MOST_RATE, minutes):
         chosen = rng.choice(len(files), SCENES, replace=False)
         batch = _batch([frame for k in chosen for frame in load(files[int(k)])], rng)
-        state, value = one(state, networks.rate(number, steps, MOST_RATE), batch)
+        state, value = one(state, rate, batch)
         yield float(value), state
 
 

@@ -74,10 +74,8 @@ def namer(classes: int) -> Graph:
     and the logarithms of their variances; three sizes; upright.
     """
     return (
-        Layer("a", "conv", (IMAGE,), 32, stride=2),
-        Layer("a1", "conv", ("a",), 32),
-        Layer("a2", "add", ("a", "a1")),
-        Layer("b", "conv", ("a2",), 64, stride=2),
+        Layer("a", "conv", (IMAGE,), 24, stride=2),
+        Layer("b", "conv", ("a",), 64, stride=2),
         Layer("b1", "conv", ("b",), 64),
         Layer("b2", "add", ("b", "b1")),
         Layer("c", "conv", ("b2",), 112, stride=2),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
@@ -156,20 +157,20 @@ def loss(weights: Any, even: Any, batch: Any) -> Any:
     return named + total, even
 
 
-def learn(given: Lessons, *, steps: int, batch: int, seed: int) -> Iterator[tuple[float, Learnt]]:
+def learn(
+    given: Lessons, *, steps: int, batch: int, seed: int, minutes: float = math.inf
+) -> Iterator[tuple[float, Learnt]]:
     """The loss of each step, and what was learnt until then."""
     rng = np.random.default_rng(seed)
     state, one = networks.first(GRAPH, graphs.NAMER_IN, seed), networks.step(loss)
     order = rng.permutation(len(given.names))
     at = 0
-    for number in range(steps):
+    for rate in networks.rates(steps, MOST_RATE, minutes):
         if at + batch > len(order):
             order, at = rng.permutation(len(given.names)), 0
         chosen = np.sort(order[at : at + batch])
         at += batch
-        state, value = one(
-            state, networks.rate(number, steps, MOST_RATE), _varied(given, chosen, rng)
-        )
+        state, value = one(state, rate, _varied(given, chosen, rng))
         yield float(value), state
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+import time
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import jax
@@ -133,7 +135,18 @@ def step(loss: Callable[..., Any]) -> Callable[..., tuple[Learnt, Any]]:
     return jax.jit(one, donate_argnums=0)
 
 
-def rate(number: int, steps: int, most: float) -> float:
-    """How far a step goes: warming up, then falling as a cosine does."""
-    turn = 0.5 + 0.5 * np.cos(np.pi * number / steps)
-    return float((0.01 + 0.99 * turn) * most * min(1.0, (number + 1) / WARM_STEPS))
+def rates(steps: int, most: float, minutes: float) -> Iterator[float]:
+    """How far each step goes: warming up, then falling as a cosine does.
+
+    Args:
+        steps: how many at most.
+        most: the furthest that one goes.
+        minutes: after so long it is the last one, on a machine that has other things to do.
+    """
+    begun_s = time.monotonic()
+    for number in range(steps):
+        share = max(number / steps, (time.monotonic() - begun_s) / (60.0 * minutes))
+        if share >= 1.0:
+            return
+        turn = 0.5 + 0.5 * math.cos(math.pi * share)
+        yield (0.01 + 0.99 * turn) * most * min(1.0, (number + 1) / WARM_STEPS)
