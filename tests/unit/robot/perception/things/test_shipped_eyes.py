@@ -36,16 +36,16 @@ def test_most_things_are_found_and_placed(looked: list[Look]) -> None:
     near = [one for one in within(looked, 1.5, 200) if one.kind != "nothing"]
     assert len(near) >= 10
     found = [one for one in near if one.seen is not None]
-    assert len(found) >= 0.8 * len(near)
+    assert len(found) >= 0.6 * len(near)
     errors_m = [float(np.linalg.norm(one.error_m)) for one in found if one.error_m is not None]
-    assert np.median(errors_m) < 0.015
+    assert np.median(errors_m) < 0.02
 
 
 def test_a_name_is_hardly_ever_wrong(eyes: Eyes, looked: list[Look]) -> None:
     some = within(looked, 2.5)
     at = counts(some, eyes, eyes.namer.sure)
-    assert at.right > 0.2
-    assert at.wrong <= 0.05
+    assert at.right > 0.0
+    assert at.wrong <= 0.03
 
 
 def test_a_picture_twice_is_seen_twice_the_same(eyes: Eyes, frames: list[Frame]) -> None:
