@@ -12,7 +12,7 @@ from robot.se3 import Array
 
 NEAR_M, NEAR_SIGMAS = 0.06, 3.0
 """What is seen so near to where a thing was is that thing."""
-SHARED = 0.35
+SHARED = 0.6
 """How much of the error of one look is that of the next one too: the share of its variance that
 more looks do not take away, and of the evidence that they do not add."""
 LEAST_LOOKS = 3
