@@ -2,7 +2,7 @@
 # ARGS="..." goes to the program that the target runs.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help demo test hostile check format bench eval bench-intents bench-speech train lock clean env env-dev
+.PHONY: help demo test hostile check format bench eval bench-intents bench-speech train train-detector lock clean env env-dev
 
 PYTHON ?=
 ARGS ?=
@@ -47,6 +47,9 @@ bench-speech: env-dev ## measure what is heard; needs espeak-ng (ARGS="--share 1
 
 train: env-dev ## learn what people say from training/sentences (ARGS="--folds 4" judges)
 	@$(BIN)/python -m training $(ARGS)
+
+train-detector: env-dev ## learn from renders to find and name things (ARGS="--ship" for the package)
+	@$(BIN)/python -m training.things $(ARGS)
 
 lock: ## resolve pyproject.toml into hashed lock files (ARGS=--upgrade for newer pins)
 	@scripts/lock $(or $(PYTHON),python3) $(ARGS)

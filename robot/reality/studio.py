@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from robot.closing import Closing
 from robot.messages import RgbdImage
 from robot.reality.visual_scene import Flat
+from robot.se3 import SE3
 
 Image = NDArray[np.uint8]
 """Shape (height, width, 3)."""
@@ -54,4 +55,8 @@ class RobotCamera(Closing, Protocol):
 
     def take(self, stamp_s: float) -> RgbdImage:
         """A picture as everything is now; nothing that is simulated notices."""
+        ...
+
+    def X_WC(self) -> SE3:
+        """Where it truly is, for who looks at pictures of a robot that does not stand up yet."""
         ...

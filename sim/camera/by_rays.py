@@ -15,7 +15,11 @@ from sim.rays import SEEN, STATIC
 
 
 class Tracer:
-    """Casts one ray through each pixel of a camera that may be anywhere."""
+    """Casts one ray through each pixel of a camera that may be anywhere.
+
+    Attributes:
+        met: the geom that each pixel of the last view shows, -1 for none, shape (height, width).
+    """
 
     def __init__(
         self,
@@ -37,6 +41,7 @@ class Tracer:
         """
         self._model, self._data, self._through, self._groups = model, data, through, groups
         self._shape = pinhole.height, pinhole.width
+        self.met: NDArray[np.int32] = np.full(self._shape, -1, dtype=np.int32)
         rays = pinhole.rays_C().reshape(-1, 3)
         self._lengths: Array = np.linalg.norm(rays, axis=1)
         self._rays_C: Array = rays / self._lengths[:, None]
@@ -55,6 +60,7 @@ class Tracer:
         )  # fmt: skip
         normals = normals.reshape(-1, 3)
         hit = (geoms >= 0) & (distances <= FAR_M)
+        self.met = geoms.reshape(self._shape)
         towards = -np.einsum("ij,ij->i", normals, rays)
         normals[towards < 0.0] *= -1.0  # of what is seen from within
         facing = np.abs(towards)

@@ -13,7 +13,7 @@ from robot.errors import ConfigError
 from robot.messages import RgbdImage
 from robot.model.description import RobotDescription
 from robot.reality.studio import Renderer
-from robot.se3 import Array
+from robot.se3 import SE3, Array
 from sim.camera.by_gl import GlViewer
 from sim.camera.by_rays import RayViewer
 from sim.camera.flaws import CameraFlaws, Shot, to_bytes
@@ -102,6 +102,12 @@ class RgbdCamera(Closing):
             depth_m=depth_m.tobytes(),
             exposure_s=shot.exposure_s,
         )
+
+    def X_WC(self) -> SE3:
+        """Where it truly is, x to the right, y down, z forward."""
+        self._look_up()
+        site = self._data.site(self._site)
+        return SE3.from_rotation(site.xmat.reshape(3, 3), site.xpos)
 
     def _shoot(self, view: SceneView, stamp_s: float) -> Shot:
         if self.flaws is None:

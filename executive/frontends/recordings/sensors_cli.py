@@ -102,13 +102,18 @@ def snap(
             "--data", help="Write colours, depth_m (metres) and matrix (pixels) as well (.npz)."
         ),
     ] = None,
+    things: Annotated[
+        bool,
+        typer.Option("--things", help="Find and name things; draw boxes on the colours."),
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Write what the robot's camera sees in a simulated world: colours, and depth beside them.
 
     Near is red, far is blue, and black is where no depth was measured. With --reality real or
     harsh the camera is like one that is sold: holes, noise, bad light (docs/realities.md). The same
-    seed gives the same picture. No robot finds things in these pictures yet (docs/perception.md).
+    seed gives the same picture. With --things two small networks find and name what is in it
+    (extra: vision; docs/perception.md); no robot acts on that yet.
 
     [bold]Examples[/bold]
 
@@ -117,15 +122,18 @@ def snap(
       humanoid sensors snap --world kitchen --at 0.75,0.2,20 --head 0,40 --reality real -o cup.png
 
       humanoid sensors snap -w flat:7 --size 640x480 --renderer rays -o flat.png --data flat.npz
+
+      humanoid sensors snap --world kitchen --at 0.75,0.2,20 --head 0,40 --things -o things.png
     """
-    from executive.frontends.snap import Asked
-    from executive.frontends.snap import snap as take
+    from executive.frontends.recordings.snap import Asked
+    from executive.frontends.recordings.snap import snap as take
 
     raise typer.Exit(
         take(
             Asked(
                 world=world, robot=robot, seed=seed, reality=reality, out=out, shows=show, at=at,
-                head=head, size=size, renderer=renderer, data=data, as_json=as_json,
+                head=head, size=size, renderer=renderer, data=data, finds_things=things,
+                as_json=as_json,
             )
         )
     )  # fmt: skip

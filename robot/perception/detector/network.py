@@ -22,6 +22,48 @@ USUAL_PX, MOST_PX = 640, 4096
 """Of networks that take pictures of any size; of those that take one size."""
 
 
+def session(path: Path, *, cure: str = EXPORT) -> Any:
+    """A network out of a file, ready to run on one thread.
+
+    Args:
+        path: of the file; weights within it.
+        cure: what to do where it holds no network.
+
+    Raises:
+        ConfigError: onnxruntime is missing, or the file holds no network.
+    """
+    try:
+        import onnxruntime
+    except ImportError:
+        problem = Problem("onnxruntime is not installed", suggestion=INSTALL)
+        raise ConfigError([problem]) from None
+    try:
+        data = read_ordinary(path, limit=MOST_BYTES)
+    except OSError as error:
+        raise _wrong(path, error.strerror or "it cannot be read", cure) from None
+    no_network = "this is no network in ONNX that can be run"
+    try:
+        is_whole = onnx_file.is_whole(data)
+    except ValueError:
+        raise _wrong(path, no_network, cure) from None
+    if not is_whole:
+        raise _wrong(path, "parts of this network are in other files, which are not read", cure)
+    options = onnxruntime.SessionOptions()
+    options.add_session_config_entry("session.load_model_format", "ONNX")
+    options.intra_op_num_threads = options.inter_op_num_threads = 1
+    # Its threads otherwise spin for 47 to 500 ms after a run, on a core that others need.
+    options.add_session_config_entry("session.intra_op.allow_spinning", "0")
+    options.log_severity_level = 4  # what is wrong is told below, in a sentence
+    try:
+        return onnxruntime.InferenceSession(data, options, providers=["CPUExecutionProvider"])
+    except Exception:  # onnxruntime has many, and they share no base
+        raise _wrong(path, no_network, cure) from None
+
+
+def _wrong(path: Path, message: str, cure: str) -> ConfigError:
+    return ConfigError([Problem(message=message, file=str(path), suggestion=cure)])
+
+
 class Network:
     """Pictures in, numbers out."""
 
@@ -31,30 +73,8 @@ class Network:
         Raises:
             ConfigError: onnxruntime is missing, or the file holds no network that takes a picture.
         """
-        try:
-            import onnxruntime
-        except ImportError:
-            problem = Problem("onnxruntime is not installed", suggestion=INSTALL)
-            raise ConfigError([problem]) from None
         self._path = path
-        try:
-            data = read_ordinary(path, limit=MOST_BYTES)
-        except OSError as error:
-            raise self._wrong(error.strerror or "it cannot be read") from None
-        if not self._is_whole(data):
-            raise self._wrong("parts of this network are in other files, which are not read")
-        options = onnxruntime.SessionOptions()
-        options.add_session_config_entry("session.load_model_format", "ONNX")
-        options.intra_op_num_threads = options.inter_op_num_threads = 1
-        # Its threads otherwise spin for 47 to 500 ms after a run, on a core that others need.
-        options.add_session_config_entry("session.intra_op.allow_spinning", "0")
-        options.log_severity_level = 4  # what is wrong is told below, in a sentence
-        try:
-            self._session: Any = onnxruntime.InferenceSession(
-                data, options, providers=["CPUExecutionProvider"]
-            )
-        except Exception:  # onnxruntime has many, and they share no base
-            raise self._wrong("this is no network in ONNX that can be run") from None
+        self._session: Any = session(path)
         inputs = self._session.get_inputs()
         if len(inputs) != 1 or len(inputs[0].shape) != 4 or inputs[0].shape[1] != 3:
             raise self._wrong("this network does not take one picture in red, green and blue")
@@ -81,11 +101,5 @@ class Network:
         except Exception:  # as above; or an output that is no array of numbers
             raise self._wrong("this network failed on a picture") from None
 
-    def _is_whole(self, data: bytes) -> bool:
-        try:
-            return onnx_file.is_whole(data)
-        except ValueError:
-            raise self._wrong("this is no network in ONNX that can be run") from None
-
     def _wrong(self, message: str) -> ConfigError:
-        return ConfigError([Problem(message=message, file=str(self._path), suggestion=EXPORT)])
+        return _wrong(self._path, message, EXPORT)

@@ -11,6 +11,7 @@ from executive.frontends.cli import app
 from executive.frontends.depth_picture import in_colours, side_by_side, span_m
 from robot.errors import ConfigError
 from robot.messages import RgbdImage
+from sim.simulation import Simulation
 
 
 def snap(*words):
@@ -71,3 +72,22 @@ def test_a_camera_without_depth_is_shown_as_it_is():
     assert image.depth() is None
     assert np.array_equal(side_by_side(image), colours)
     assert span_m(np.zeros((2, 2), np.float32)) == (0.0, 1.0)
+
+
+def test_things_are_boxed_and_told_with_place_and_size(tmp_path):
+    pytest.importorskip("onnxruntime", reason="the extra `vision` is not installed")
+    out = tmp_path / "things.png"
+    result = snap("--things", "--renderer", "rays", "-o", out, "--json", "--reality", "real",
+                  "--at", "0.75,0.2,20", "--head", "0,40")  # fmt: skip
+    assert result.exit_code == 0, result.output
+    told = json.loads(result.stdout)["things"]
+    with Image.open(out) as picture:
+        assert picture.size == (640, 480)
+    begins = Simulation("real").world("kitchen").objects()
+    for name, colour in (("red_cup", "red"), ("blue_cup", "blue")):
+        truth = np.array(begins[name].X_WO.p)
+        near = min(told, key=lambda one, p=truth: np.linalg.norm(np.array(one["position"]) - p))
+        assert np.linalg.norm(np.array(near["position"]) - truth) < 0.03
+        assert colour in near["colours"]
+        assert near["size"][2] == pytest.approx(0.10, abs=0.03)
+        assert near["box"][0] < near["box"][2]

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from executive.frontends.composition_root import REALITY
 from executive.frontends.new_files import refuse_inputs
 from executive.frontends.output import say, write_json
+from executive.frontends.recordings.things import boxed, plain, seen_things
 from executive.frontends.view import PICTURES
 from executive.meaning.request import setting
 from robot.errors import ConfigError, Problem
@@ -28,6 +29,8 @@ from robot.se3 import SE3
 
 if TYPE_CHECKING:
     from PIL.Image import Image
+
+    from executive.frontends.recordings.things import SeenThing
 
 SIZES = "from 16x16 to 1920x1080"
 
@@ -46,6 +49,7 @@ class Asked(msgspec.Struct, frozen=True, kw_only=True):
     size: str = ""
     renderer: Renderer = "auto"
     data: Path | None = None
+    finds_things: bool = False
     as_json: bool = False
 
 
@@ -63,8 +67,12 @@ def snap(asked: Asked) -> int:
     _put(plant, where.description, asked)
     with plant.camera(renderer=asked.renderer, size=size) as camera:
         image, by = camera.take(0.0), camera.by
-    _write(image, asked)
+        X_WC = camera.X_WC()
+    things = seen_things(image, X_WC) if asked.finds_things else None
+    _write(image, things, asked)
     told = _told(image, by, asked)
+    if things is not None:
+        told["things"] = [plain(one) for one in things]
     if asked.as_json:
         write_json(told)
     else:
@@ -73,6 +81,9 @@ def snap(asked: Asked) -> int:
             f"{told['fovx_deg']:.0f} x {told['fovy_deg']:.0f} deg, reality {asked.reality}, "
             f"{100 * float(str(told['without_depth'])):.0f} % of the pixels without depth)"
         )
+        for one in things or ():
+            x, y, z = one.p_W.tolist()
+            say(f"  {one.words}, {100.0 * one.name.score:.0f} %, at {x:.2f}, {y:.2f}, {z:.2f} m")
     return ExitStatus.DONE
 
 
@@ -124,13 +135,15 @@ def _size(text: str) -> tuple[int, int] | None:
     )
 
 
-def _write(image: RgbdImage, asked: Asked) -> None:
+def _write(image: RgbdImage, things: list[SeenThing] | None, asked: Asked) -> None:
     from PIL.Image import fromarray
 
     from executive.frontends import depth_picture as pictures
 
     depth_m = image.depth()
-    if asked.shows == "both" or depth_m is None:
+    if things is not None:
+        picture = boxed(image, things)
+    elif asked.shows == "both" or depth_m is None:
         picture = pictures.side_by_side(image)
     elif asked.shows == "depth":
         picture = pictures.in_colours(depth_m, *pictures.span_m(depth_m))

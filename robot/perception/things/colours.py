@@ -1,0 +1,64 @@
+"""What colours a thing has, in words, from its pixels."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+GREY, DARK = 0.22, 0.16
+"""Saturation below which a pixel has no colour; value below which none can be told."""
+BLACK, WHITE = 0.25, 0.60
+"""Values of what has no colour: up to, from."""
+PALE = 0.60
+"""Saturation below which red is pink, and orange brown."""
+DEEP = 0.50
+"""Value below which orange is brown."""
+HUES = ((14.0, "red"), (38.0, "orange"), (68.0, "yellow"), (165.0, "green"), (203.0, "teal"),
+        (252.0, "blue"), (300.0, "purple"), (338.0, "pink"), (360.0, "red"))  # fmt: skip
+"""Up to which hue [deg] a word goes."""
+WORDS = ("black", "gray", "white", "brown", *dict.fromkeys(word for _, word in HUES))
+SECOND = 0.3
+"""A share of the pixels from which on a colour is told besides the first."""
+
+
+def words(colours: NDArray[np.uint8], pixels: NDArray[np.bool_]) -> tuple[str, ...]:
+    """One or two words for the colours of a thing, most of it first.
+
+    Args:
+        colours: of the picture, red, green, blue, shape (height, width, 3).
+        pixels: which show the thing, at least one.
+    """
+    rgb = colours[pixels].astype(np.float32) / np.float32(255.0)
+    high, low = rgb.max(axis=1), rgb.min(axis=1)
+    saturation = (high - low) / np.maximum(high, 1e-3)
+    found = np.array(WORDS.index("gray")) * np.ones(len(rgb), dtype=np.intp)
+    found[high < BLACK] = WORDS.index("black")
+    found[high > WHITE] = WORDS.index("white")
+    has_hue = (saturation > GREY) & (high > DARK)
+    hue = _hues(rgb, high, low)
+    limits = np.array([limit for limit, _ in HUES])
+    named = np.array([WORDS.index(word) for _, word in HUES])[np.searchsorted(limits, hue)]
+    pale_red = (named == WORDS.index("red")) & (saturation < PALE) & (high > DEEP)
+    named[pale_red] = WORDS.index("pink")
+    orange = (named == WORDS.index("orange")) & ((saturation < PALE) | (high < DEEP))
+    named[orange] = WORDS.index("brown")
+    found[has_hue] = named[has_hue]
+    shares = np.bincount(found, minlength=len(WORDS)) / len(rgb)
+    best = np.argsort(-shares)
+    told = [WORDS[int(best[0])]]
+    if shares[best[1]] > SECOND:
+        told.append(WORDS[int(best[1])])
+    return tuple(told)
+
+
+def _hues(
+    rgb: NDArray[np.float32], high: NDArray[np.float32], low: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """The hue of each pixel, from 0 to 360 degrees; 0 of what is grey."""
+    span = np.maximum(high - low, np.float32(1e-6))
+    red, green, blue = rgb[:, 0], rgb[:, 1], rgb[:, 2]
+    hue = np.asarray((red - green) / span + np.float32(4.0), np.float32)
+    most_green, most_red = high == green, high == red
+    hue[most_green] = ((blue - red) / span + np.float32(2.0))[most_green]
+    hue[most_red] = ((green - blue) / span % np.float32(6.0))[most_red]
+    return np.asarray(np.float32(60.0) * hue, np.float32)

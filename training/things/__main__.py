@@ -1,0 +1,178 @@
+"""`python -m training.things`: teach the two networks that find and name things, and judge them.
+
+Scenes are rendered into a folder (again only those that are missing), the finder learns from them,
+then the namer from what the finder finds; thresholds are chosen on other scenes, figures told of
+others again, with rooms and kinds that were never learnt. With `--ship` the networks take the place
+of those in the package.
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import math
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+os.environ.setdefault("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false")  # one core, no more
+
+import numpy as np
+
+from robot.perception.things import networks as shipped
+from robot.perception.things.crops import CHANNELS, NUMBERS, SIDE_PX
+from robot.perception.things.eyes import Eyes
+from robot.perception.things.inputs import CHANNELS as SEEN
+from robot.perception.things.networks import Finder, Namer
+from training.things import export, finding, graphs, judging, naming
+from training.things.frames import load
+from training.things.networks import Learnt
+from training.things.rendering import bar, frames, render, render_homes
+from training.things.splits import family
+
+BATCH = 96
+WALKS_FROM = 50_000
+"""The seed of the first walk: none of these scenes is in the other pictures."""
+MOST_WRONG = 0.005
+"""Of the things that thresholds are chosen on, so many may get a wrong name."""
+
+
+class Sets(NamedTuple):
+    """Files of pictures: to learn from, to choose thresholds on, and three to judge by."""
+
+    learn: list[Path]
+    choose: list[Path]
+    judge: list[Path]
+    walks: list[Path]
+    homes: list[Path]
+
+
+def main() -> int:
+    """Render, learn, choose, judge."""
+    asked = argparse.ArgumentParser(prog="python -m training.things", description=__doc__)
+    asked.add_argument("--folder", type=Path, default=Path("build/things"))
+    asked.add_argument("--scenes", type=int, default=150, help="to learn from, 4 pictures each")
+    asked.add_argument("--others", type=int, default=40, help="to choose on, and to judge by")
+    asked.add_argument("--walks", type=int, default=20, help="to things, to judge by")
+    asked.add_argument("--homes", type=int, default=4, help="made by another generator, likewise")
+    asked.add_argument("--finder-steps", type=int, default=300, help="of 8 pictures")
+    asked.add_argument("--namer-steps", type=int, default=600, help=f"of {BATCH} crops")
+    asked.add_argument("--jobs", type=int, default=1, help="processes that render")
+    asked.add_argument("--minutes", type=float, default=math.inf, help="a network, at most")
+    asked.add_argument("--seed", type=int, default=1)
+    asked.add_argument("--only", choices=("render", "finder", "namer", "judge"), action="append")
+    asked.add_argument("--ship", action="store_true", help="into the package")
+    options = asked.parse_args()
+    only = options.only or ("render", "finder", "namer", "judge")
+    home: Path = shipped.HERE if options.ship else options.folder
+    finder, namer = home / shipped.FINDER.name, home / shipped.NAMER.name
+    sets = _rendered(options)
+    if "finder" in only:
+        shape: tuple[Any, ...] = ("rows", "columns", SEEN)
+        made = finding.learn(sets.learn, steps=options.finder_steps, seed=options.seed,
+                             minutes=options.minutes)  # fmt: skip
+        learnt = _learn("learn the finder", made, options.finder_steps)
+        export.write(finder, finding.GRAPH, learnt, {graphs.IMAGE: shape}, {})
+    if "namer" in only:
+        learnt = _named(sets, Finder(finder), options)
+        _write_namer(namer, learnt, {"sure_kind": 0.9, "sure_family": 0.9, "heat": 1, "spread": 1})
+        _write_namer(namer, learnt, _chosen(Eyes(Finder(finder), Namer(namer)), sets.choose))
+    if "judge" in only:
+        _judge(Eyes(Finder(finder), Namer(namer)), sets)
+        sizes = [round(path.stat().st_size / 1e6, 2) for path in (finder, namer)]
+        print(f"files {sizes} MB")
+    return 0
+
+
+def _rendered(options: argparse.Namespace) -> Sets:
+    """Every picture there has to be; those that are there stay."""
+    folder, jobs, others = options.folder, options.jobs, options.others
+    return Sets(
+        render(folder, "train", 0, options.scenes, jobs=jobs),
+        render(folder, "choose", 0, others, jobs=jobs),
+        render(folder, "judge", 0, others, jobs=jobs),
+        render(folder, "judge", WALKS_FROM, options.walks, jobs=jobs, walks=True),
+        render_homes(folder, 0, options.homes, jobs=jobs),
+    )
+
+
+def _named(sets: Sets, finder: Finder, options: argparse.Namespace) -> Learnt:
+    """Cut out what the finder finds, and learn what it is."""
+    with bar() as progress:
+        every = progress.track(sets.learn, description="cut things out")
+        rng = np.random.default_rng(options.seed)
+        files = (frame for path in every for frame in load(path))
+        lessons = naming.gathered(naming.lessons(files, finder, rng))
+    told = np.bincount(lessons.names, minlength=len(naming.CLASSES))
+    print(f"{len(lessons.names)} crops, {told[-2]} of no kind, {told[-1]} of nothing")
+    made = naming.learn(lessons, steps=options.namer_steps, batch=BATCH, seed=options.seed,
+                        minutes=options.minutes)  # fmt: skip
+    return _learn("learn the namer", made, options.namer_steps)
+
+
+def _judge(eyes: Eyes, sets: Sets) -> None:
+    """Figures on pictures that nothing was learnt or chosen from."""
+    f1_at = judging.best_f1(judging.looked(eyes, frames(sets.choose)), eyes)
+    print(judging.report(judging.looked(eyes, frames(sets.judge)), eyes, f1_at))
+    print(judging.walked(eyes, (list(load(path)) for path in sets.walks)))
+    print("homes:")
+    print(judging.report(judging.looked(eyes, frames(sets.homes)), eyes, f1_at))
+
+
+def _learn(name: str, made: Iterator[tuple[float, Learnt]], steps: int) -> Learnt:
+    """The last of what is learnt; how it goes is told."""
+    losses: list[float] = []
+    learnt: Learnt | None = None
+    with bar() as progress:
+        task = progress.add_task(name, total=steps)
+        for loss, now in made:
+            learnt = now
+            losses.append(loss)
+            mean = float(np.mean(losses[-100:]))
+            progress.update(task, advance=1, description=f"{name}: loss {mean:.3f}")
+    print(f"{name}: {len(losses)} steps")
+    for start in itertools.islice(range(0, len(losses), 200), 1, None):
+        print(f"{name}: steps to {start}: {np.mean(losses[start - 200 : start]):.3f}")
+    assert learnt is not None
+    return learnt
+
+
+def _chosen(eyes: Eyes, choose: list[Path]) -> dict[str, Any]:
+    """How sure it is, made to fit scenes that nothing was learnt from; and what is sure enough."""
+    plain = judging.looked(eyes, frames(choose))
+    seen = [one for one in plain if one.seen is not None and not one.is_double]
+    right = np.array([naming.CLASSES.index(one.kind) for one in seen])
+    logs = np.log(np.maximum(np.array([one.seen.chances for one in seen if one.seen]), 1e-9))
+    heats = np.linspace(0.6, 2.5, 39).tolist()
+
+    def unlikely(heat: float) -> float:
+        raised = logs / heat
+        raised -= np.log(np.exp(raised).sum(axis=1, keepdims=True))
+        return -float(raised[np.arange(len(right)), right].mean())
+
+    heat = min(heats, key=unlikely)
+    sigmas = judging.mahalanobis(seen)
+    spread = float(np.percentile(sigmas, 90.0)) / 2.5  # 90 % of a Gaussian in space are within
+    eyes.namer.heat = heat
+    again = judging.looked(eyes, frames(choose))
+    sure = judging.calibrated(
+        [one for one in again if one.pixels >= naming.LEAST_PX or one.kind == "nothing"],
+        eyes.namer.classes, most_wrong=MOST_WRONG,
+    )  # fmt: skip
+    print(f"heat {heat:.2f}, spread {spread:.2f}, sure {sure.kind:.3f}, {sure.family:.3f}")
+    return {"sure_kind": sure.kind, "sure_family": sure.family, "heat": heat, "spread": spread}
+
+
+def _write_namer(path: Path, learnt: Learnt, chosen: dict[str, Any]) -> None:
+    families = [family(one) if one not in (naming.UNKNOWN, naming.NOTHING) else one
+                for one in naming.CLASSES]  # fmt: skip
+    notes = {name: str(value) for name, value in chosen.items()}
+    notes |= {"classes": ",".join(naming.CLASSES), "families": ",".join(families)}
+    shapes = {graphs.IMAGE: (SIDE_PX, SIDE_PX, CHANNELS), graphs.NUMBERS: (NUMBERS,)}
+    export.write(path, naming.GRAPH, learnt, shapes, notes)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
