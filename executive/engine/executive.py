@@ -305,7 +305,10 @@ class Executive:
 
     def _carry_out(self) -> None:
         while self._requests:
-            self._requests.popleft()()
+            try:
+                self._requests[0]()
+            finally:
+                self._requests.popleft()  # only now: until it is carried out there is work to do
 
     def _settle(self, now_s: float) -> None:
         """Give their final states to the jobs that have come to their end."""
