@@ -238,7 +238,7 @@ class Executive:
 
     @property
     def jobs(self) -> tuple[Job, ...]:
-        """All jobs: those that are over, then those under way, then those that wait, in order."""
+        """All jobs: those that are over, those under way as they take turns, those that wait."""
         return self._book.jobs
 
     @property

@@ -181,3 +181,27 @@ def test_what_is_asked_beside_a_choice_is_no_choice(shell: Shell):
     assert said[-1].endswith("Which cup, the red one or the blue one?")
     shell.line("the red one")
     assert open_jobs(shell) == ["put the red cup on the counter"]
+
+
+def test_what_is_urgent_is_what_is_under_way(shell: Shell):
+    begin(shell, "go to the cabinet", "now go to the counter")
+    assert eventually(lambda: shell.robot.executive.jobs[0].text == "go to the counter")
+    assert eventually(lambda: shell.robot.view.goal == "go to the counter")
+    shell.line("resume")
+    assert said[-1] == "Nothing is paused: “go to the counter” is under way."
+    shell.line("what are you doing?")
+    assert "counter" in said[-1]
+    assert "cabinet" not in said[-1]
+    shell.line("wait")
+    assert said[-1].startswith("Shall I go on with “go to the counter” and 1 more?")
+    shell.line("yes")
+    shell.line("cancel")
+    assert eventually(lambda: open_jobs(shell) == ["go to the cabinet"])
+
+
+def test_what_was_just_asked_for_now_is_what_is_cancelled(shell: Shell):
+    begin(shell, "go to the cabinet")
+    shell.line("now go to the counter")
+    shell.line("now go to the shelf")
+    shell.line("cancel")
+    assert eventually(lambda: last_words(shell) == ["counter", "cabinet"])
