@@ -28,7 +28,8 @@ _BOUNDS = re.compile(
     rf"|(?P<amount>(?:{_DENIED}\W+)?\b(?:{_AMOUNTS})\s+than\b{_TAIL})"
     rf"|(?P<most>\b(?:at (?:the )?(?:most|least|maximum|minimum)|up to|maximum|minimum|max|min"
     rf"|not (?:exceeding|above|over|below|under|beyond|past)|without exceeding)\s+{_TAIL})"
-    rf"|(?P<choice>\b(?:whichever|whoever|whatever)\b{_TAIL})",
+    rf"|(?P<choice>(?<=[,–—])\s*(?:whichever|whoever|whatever)\b{_TAIL}"
+    rf"|\bwhichever\s+(?:one\s+)?(?:of\s+\w+\s+)?(?:is|are|has|looks|seems|weighs|comes)\b{_TAIL})",
     re.IGNORECASE,
 )
 _FREE = re.compile(
@@ -72,6 +73,8 @@ def _counted(said: str, goals: list[Goal]) -> bool:
     words = _words(said)
     found = [measure(words, at) or number(words, at) for at in range(len(words))]
     amounts = [one.value for one in found if one is not None]
+    if not amounts and said.casefold().startswith("up to"):
+        return True  # her elbows
     carried = numbers(goal for goal in goals if not (isinstance(goal, GoTo) and goal.pose))
     return any(abs(one - abs(amount)) < _SAME for amount in amounts for one in carried)
 

@@ -39,6 +39,8 @@ KEPT = [
     "wait at least 7 seconds",
     "pick up a mug, whichever you like",
     "bring me whichever mug is white",
+    "bring me whatever mug is on the bench",
+    "take the flask to Ida because she is up to her elbows in flour",
     "say it is no further than the moon",
 ]
 
