@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from intents import looking_back, plans, replies, wording
+from intents import looking_back, plans, replies, small_questions, wording
 from intents.context import Context, answered, noted, verdict_of
 from intents.correcting import in_full, is_correction
 from intents.distances import how_far
@@ -290,12 +290,14 @@ class Dialogue:
         pending = self._pending
         self._close()
         if not verdict:
-            halted = opened.goals == (Resume(),)
+            halted = small_questions.is_halt(opened)
             busy = halted or (bool(state.doing) and "cancel" in text.lower())
             return Goals(goals=(Cancel(),)) if busy else Reply(text="All right, I leave it.")
         if pending is not None:
             self.context = replace(pending, question=None, said=self.context.said)
-        return Goals(goals=opened.goals, parser=opened.parser)
+        agreed = Goals(goals=opened.goals, parser=opened.parser)
+        told = self._told(text, agreed, state)
+        return told if isinstance(told, Reply) else agreed
 
     def _revised(self, text: str, state: RobotState) -> Turn | None:
         """What takes back what was asked last, or asks it for the others; None if it is neither."""
@@ -358,11 +360,17 @@ class Dialogue:
         alone, _ = hear(text, self.vocabulary, context=replace(before, question=None))
         if isinstance(alone, Goals) and isinstance(outcome, Goals) and alone.goals == outcome.goals:
             told = self._told(text, alone, state)
-            if isinstance(told, Reply):
-                return told
+            if isinstance(told, Question) and small_questions.is_halt(opened):
+                told = small_questions.without_offer(told)
+            aside = told or small_questions.not_offered(text, opened, alone)
+            if isinstance(aside, Reply):
+                return aside
             self.dropped = opened.question.removeprefix("I did not get that. ")
             self._asked_before.clear()
         elif isinstance(alone, Question) and isinstance(outcome, Question):
+            aside = small_questions.not_offered(text, opened, alone)
+            if aside is not None:
+                return aside
             self._asked_before.append((opened, self._pending))
         return None
 

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from msgspec.structs import replace
 
 from intents.allowed import excess
+from intents.bounds import unkept
 from intents.context import Context, answered, completed
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
@@ -19,6 +20,7 @@ from intents.english.trouble import (
     ReadingError,
     Unasked,
     Unclear,
+    Unpromised,
     Unread,
     listing,
 )
@@ -205,6 +207,8 @@ def _second_opinion(
     checked = _checked(text, other.goals, context)
     if isinstance(checked, Goals):
         checked = other
+    if unkept(text, other.goals):
+        return _settled(_bounded(text, checked), context, scope)
     return _settled(replace(checked, parser=other.parser), context, scope)
 
 
@@ -214,7 +218,17 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
     found = second_look(
         text, index_of(vocabulary), first, lambda said: first_look(said, vocabulary, context)
     )
-    return found.outcome, found.after
+    return _bounded(text, found.outcome), found.after
+
+
+def _bounded(text: str, outcome: Outcome) -> Outcome:
+    """An outcome, as a question where it would act without a bound that was said."""
+    if not isinstance(outcome, Goals):
+        return outcome
+    said = unkept(text, outcome.goals)
+    if not said:
+        return outcome
+    return just_that(text, Unpromised(f"I cannot promise “{said}”", outcome.goals))
 
 
 def first_look(text: str, vocabulary: Vocabulary, context: Context) -> Attempt:

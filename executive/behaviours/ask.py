@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Literal, get_args
 
 from py_trees.behaviour import Behaviour
@@ -19,14 +20,35 @@ ALONE_S = 5.0
 """How long it is waited where nobody is said to be there."""
 
 
-def answer_of(text: str) -> Answer | None:
-    """The answer that a line is, also as a mere yes or no; None if it is none."""
+_MAY = re.compile(r"\bmay I ([a-z ]+)\?")
+_LEAVE = {
+    "get up": frozenset(("get up", "stand up", "get back up", "get on your feet", "rise", "up"))
+}
+"""What is asked for leave, and how people say it."""
+_POLITE = re.compile(
+    r"\b(?:please|now|then|robot|ok(?:ay)?|yes|sure|and|just|again|go ahead|you (?:may|can))\b"
+)
+
+
+def answer_of(text: str, question: str = "") -> Answer | None:
+    """The answer that a line is, also as a mere yes or no; None if it is none.
+
+    To say what is asked for leave gives it: "get up", where the question is "may I get up?".
+    """
     wanted = text.casefold().strip(" .!")
     verdict = verdict_of(text)
     plain: Answer | None = next((answer for answer in ANSWERS if answer == wanted), None)
-    if plain is not None or verdict is None:
+    if plain is not None:
         return plain
-    return "continue" if verdict else "give up"
+    if verdict is not None:
+        return "continue" if verdict else "give up"
+    return "continue" if _gives_leave(wanted, question) else None
+
+
+def _gives_leave(text: str, question: str) -> bool:
+    asked = _MAY.search(question)
+    said = " ".join(re.findall(r"[a-z]+", _POLITE.sub(" ", text)))
+    return asked is not None and said in _LEAVE.get(asked[1], {asked[1]})
 
 
 class AskForHelp(Behaviour):

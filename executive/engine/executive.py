@@ -238,7 +238,7 @@ class Executive:
 
     @property
     def jobs(self) -> tuple[Job, ...]:
-        """All jobs: those that are over, then those under way, then those that wait, in order."""
+        """All jobs: those that are over, those under way as they take turns, those that wait."""
         return self._book.jobs
 
     @property
@@ -305,7 +305,10 @@ class Executive:
 
     def _carry_out(self) -> None:
         while self._requests:
-            self._requests.popleft()()
+            try:
+                self._requests[0]()
+            finally:
+                self._requests.popleft()  # only now: until it is carried out there is work to do
 
     def _settle(self, now_s: float) -> None:
         """Give their final states to the jobs that have come to their end."""

@@ -12,7 +12,7 @@ from collections.abc import Callable
 import msgspec
 
 from executive.engine.job_tree import Jobs, Work
-from executive.engine.jobs import OVER, Job
+from executive.engine.jobs import OVER, UNDER_WAY, Job, in_turn
 from robot.errors import RobotError
 from robot.failures import Failure
 
@@ -62,12 +62,14 @@ class JobBook:
 
     @property
     def jobs(self) -> tuple[Job, ...]:
-        """All jobs: those that are over, then those under way, then those that wait, in order."""
+        """All jobs: those that are over, those under way as they take turns, those that wait."""
         with self.lock:
             live = [work.job for work in self._at_work.works]
             known = {job.number for job in live}
+            begun = in_turn([job for job in live if job.state in UNDER_WAY])
+            waiting = [job for job in live if job.state not in UNDER_WAY]
             new = [job for job in self._waiting.values() if job.number not in known]
-            return (*self._over, *live, *new)
+            return (*self._over, *begun, *waiting, *new)
 
     @property
     def open(self) -> bool:

@@ -53,22 +53,30 @@ class Job(msgspec.Struct, frozen=True, kw_only=True):
     recoveries: int = 0
 
 
-def side_by_side(jobs: list[Job]) -> list[Job]:
-    """Those of the jobs that run now, the most urgent first.
+def in_turn(jobs: list[Job]) -> list[Job]:
+    """The jobs in the order in which they take what they need of the body.
 
-    The newest urgent job comes first, then what was begun, then what waits, in its order. A job
-    runs when no job before it wants one of its parts of the body, so nothing overtakes.
-
-    Args:
-        jobs: all that are not over, those that wait in the order of the queue.
+    The newest urgent job comes first, then what was begun, then what waits, in its order.
     """
     urgent = sorted((job for job in jobs if job.urgent), key=lambda job: -job.number)
     others = [job for job in jobs if not job.urgent]
     begun = sorted((job for job in others if job.began_s is not None), key=lambda job: job.number)
     waiting = [job for job in others if job.began_s is None]
+    return [*urgent, *begun, *waiting]
+
+
+def side_by_side(jobs: list[Job]) -> list[Job]:
+    """Those of the jobs that run now, the most urgent first.
+
+    They take turns (`in_turn`): a job runs when no job before it wants one of its parts of the
+    body, so nothing overtakes.
+
+    Args:
+        jobs: all that are not over, those that wait in the order of the queue.
+    """
     running: list[Job] = []
     wanted: set[Resource] = set()
-    for job in (*urgent, *begun, *waiting):
+    for job in in_turn(jobs):
         if not job.resources & wanted:
             running.append(job)
         wanted |= job.resources

@@ -104,7 +104,7 @@ class _Told:
         self.goals = goals
         plain_goals = to_builtins(goals)
         self.values = {value.lower() for value in _strings(plain_goals)}
-        self.numbers = [abs(n) for n in _numbers(plain_goals)]
+        self.numbers = numbers(goals)
         plain = " ".join(self.values).replace("_", " ").replace("-", " ").split()
         self.words = {*plain, *map(singular, plain)}
         self.speaks = any(isinstance(goal, _SPEAKS) for goal in goals)
@@ -291,6 +291,11 @@ def _owns(text: Text, at: int, told: _Told) -> bool:
 def strings(goals: Iterable[Goal]) -> list[str]:
     """Every word that goals say, in lower case."""
     return [value.lower() for value in _strings(to_builtins(goals))]
+
+
+def numbers(goals: Iterable[Goal]) -> list[float]:
+    """Every number that goals say, without its sign."""
+    return [abs(value) for value in _numbers(to_builtins(goals))]
 
 
 def _strings(value: object) -> Iterator[str]:

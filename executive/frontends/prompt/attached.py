@@ -80,8 +80,8 @@ class Attached:
         self._faults.append(fault)
 
     def wait(self, *, poll_s: float = 0.02) -> None:
-        """Return when nothing is left to do, or the robot is gone."""
-        while self.busy and self.lost is None:
+        """Return when nothing is left to do, the robot is gone, or waits to be told to go on."""
+        while self.busy and self.lost is None and not self.executive.awaits_operator:
             time.sleep(poll_s)
 
     def _look(self) -> None:

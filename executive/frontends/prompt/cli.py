@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from executive.engine.jobs import OVER
 from executive.frontends import carrying_out, speaking
 from executive.frontends.composition_root import REALITY
 from executive.frontends.console.attending import attended
@@ -92,6 +93,8 @@ def prompt(options: Begun, handle: Handle | None = None) -> int:
             whole = work_off(shell, lines_until(sys.stdin, over))
             if interrupts.pressed:
                 shell.leave()
+            else:
+                _tell_left_open(shell)
             status = status_of(shell) if whole else max(status_of(shell), ExitStatus.FAILED)
         speech.finish()
         return status
@@ -219,5 +222,12 @@ def status_of(shell: Shell) -> int:
         return ExitStatus.BROKEN
     if shell.refused:
         return ExitStatus.INVALID
-    failed = any(job.state in ("failed", "cancelled") for job in shell.robot.executive.jobs)
-    return ExitStatus.FAILED if failed else ExitStatus.DONE
+    done = all(job.state == "done" for job in shell.robot.executive.jobs)
+    return ExitStatus.DONE if done else ExitStatus.FAILED
+
+
+def _tell_left_open(shell: Shell) -> None:
+    """Say what is not done, because it waits for a word that no line says any more."""
+    for job in shell.robot.executive.jobs:
+        if job.state not in OVER:
+            say(f"Not done: “{job.text}”: the robot is paused, and no line says `resume`", err=True)

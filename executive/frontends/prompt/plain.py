@@ -18,6 +18,8 @@ CHUNK = 65536
 def work_off(shell: Spoken, lines: Iterable[str]) -> bool:
     """Do every line; ends with the last, with `quit`, when the robot is gone, or is to stop.
 
+    The end of the lines is nobody who leaves: what is open by then is done first.
+
     Ctrl-C, SIGTERM and SIGHUP are each a wish to leave, also after the robot has come to a stand
     for it. A stop that is none of the lines (on a page, in another terminal) is about all that
     follow. Returns whether no line that came was left undone for that.
@@ -42,6 +44,8 @@ def work_off(shell: Spoken, lines: Iterable[str]) -> bool:
             stops = brake.stops
         if shell.leaving or shell.gone:
             break
+    else:
+        shell.robot.wait()
     if shell.gone:
         shell.out(shell.gone)
     return True

@@ -8,7 +8,7 @@ from typing import Any
 from executive.behaviours.breakpoints import fits
 from executive.blackboard import HELD, WORLD
 from executive.engine.job_book import JobError
-from executive.engine.jobs import OVER, UNDER_WAY, Job
+from executive.engine.jobs import OVER, UNDER_WAY, Job, in_turn
 from executive.frontends.prompt import foresight
 from executive.frontends.prompt.answering import Answering
 from executive.frontends.prompt.brake import Brake
@@ -90,8 +90,9 @@ class Queueing:
         return tuple(self._robot.executive.board.read(HELD).values())
 
     def under_way(self) -> list[Job]:
-        """The jobs that have begun and are not over."""
-        return [job for job in self._robot.executive.jobs if job.state in UNDER_WAY]
+        """The jobs that have begun and are not over, what the body is about first."""
+        jobs = [job for job in self._robot.executive.jobs if job.state not in OVER]
+        return in_turn([job for job in jobs if job.urgent or job.state in UNDER_WAY])
 
     def goals_of(self, job: Job) -> tuple[Goal, ...]:
         """What a job was asked to do; nothing if it was not asked for here."""

@@ -89,7 +89,7 @@ class AtWork(Protocol):
         ...
 
     def wait(self, *, poll_s: float = 0.02) -> None:
-        """Return when nothing is left to do, or the robot is gone."""
+        """Return when nothing is left to do, the robot is gone, or waits to be told to go on."""
         ...
 
 
@@ -194,8 +194,10 @@ class Robot(Closing):
         self._faults.append(fault)
 
     def wait(self, *, poll_s: float = 0.02) -> None:
-        """Return when nothing is left to do, or the robot is gone."""
+        """Return when nothing is left to do, the robot is gone, or waits to be told to go on."""
         while self.busy and self._thread.is_alive() and self.lost is None:
+            if self.executive.awaits_operator:
+                return
             self._leaving.wait(poll_s)
 
     # --- the thread ---

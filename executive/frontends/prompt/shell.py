@@ -165,7 +165,8 @@ class Shell(Answering):
 
     def _helped(self, text: str) -> Answer | None:
         """The answer that a line is to what a job asks; a mere "yes" is for what was asked here."""
-        answer = answer_of(text) if self.robot.executive.question else None
+        question = self.robot.executive.question
+        answer = answer_of(text, question) if question else None
         return answer if answer == text or self.dialogue.question is None else None
 
     def help(self, text: str) -> bool:

@@ -44,7 +44,7 @@ class Seen(Protocol):
         ...
 
     def wait(self) -> None:
-        """Return when nothing is left to do, or the robot is gone."""
+        """Return when nothing is left to do, the robot is gone, or waits to be told to go on."""
         ...
 
 

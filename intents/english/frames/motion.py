@@ -62,9 +62,7 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
         "off",
     ):
         raise Misfit("that is to move something")
-    source = slots.take("from")
-    if source and target and source.phrase.noun == "there":
-        source = None  # to the hall, and from there to the lab: it is there by then
+    source = _source(slots, target)
     _pass_over_moment(slots, target)
     distance = slots.measure("length")
     direction = slots.direction(*_BY)
@@ -79,6 +77,8 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     elif second and not (target and second.phrase.noun in ("here", "there")):  # to me over here
         raise Misfit(f"“{second.phrase.said}” is one place too many")
     _must_have_side(clause, direction)
+    if target is None and not direction:
+        _must_not_be_from(source, clause)
     if target is None and (distance is not None or direction or clause.vague()):
         slots.done()
         vague = clause.vague() and clause.verb != "step"
@@ -100,6 +100,27 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     for phrase in target.phrases:
         must_be_beside(phrase, clause, scope)
     return [_towards(clause, scope, phrase) for phrase in target.phrases]
+
+
+def _source(slots: Slots, target: Complement | None) -> Complement | None:
+    """From where it is walked, if not from where the robot is by then.
+
+    To the hall, and *from there* to the lab; three metres *from here*.
+    """
+    source = slots.take("from")
+    noun = source.phrase.noun if source else ""
+    return None if noun == "there" or (noun == "here" and target is None) else source
+
+
+def _must_not_be_from(source: Complement | None, clause: Clause) -> None:
+    """Refuse to walk a metre *from the table*, which is no metre forward.
+
+    Raises:
+        NotUnderstood: That was said.
+    """
+    if source is not None and not _backs(clause):
+        apart = "I can walk forward, back, to the left or right, and not away from something"
+        raise NotUnderstood(apart)
 
 
 def _pass_over_moment(slots: Slots, target: Complement | None) -> None:
@@ -183,8 +204,12 @@ def _part(phrase: NounPhrase) -> Part | None:
 
 
 def _implied(clause: Clause) -> str:
-    back = ("back", "return", "go back", "reverse", "retreat")
-    return "backward" if clause.verb.startswith(back) else "forward"
+    return "backward" if _backs(clause) else "forward"
+
+
+def _backs(clause: Clause) -> bool:
+    """Whether it is walked backward, and so away from what is in front."""
+    return clause.verb.startswith(("back", "return", "go back", "reverse", "retreat"))
 
 
 def _step(direction: str, distance: float | None, *, vague: bool) -> GoTo:

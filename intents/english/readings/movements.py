@@ -28,6 +28,10 @@ _ASIDE = lexicon.phrases(
 _POSE = lexicon.words("x y position point coordinates coordinate pose location the at and to , yaw")
 
 
+_AT = _POSE - lexicon.words("the and ,")
+"""With none of these, two amounts are no coordinates: "walk 2 metres and 1"."""
+
+
 def out_of_the_way(sentence: Sentence, at: int) -> None:
     """Step aside.
 
@@ -89,6 +93,7 @@ def pose(sentence: Sentence, at: int) -> Found | None:
         return None
     end = max(ends)
     values: list[float] = []
+    start = end
     while len(values) < 2 and end < len(text):
         metres = measure(text.words, end)
         length = metres if metres is not None and metres.kind == "length" else None
@@ -97,6 +102,7 @@ def pose(sentence: Sentence, at: int) -> Found | None:
             return None
         values += [found.value] if found else []
         end = found.end if found else end + 1
-    if len(values) < 2 or not ends_clause(text, end):
+    said = _AT.intersection(text.words[start:end])
+    if len(values) < 2 or not said or not ends_clause(text, end):
         return None
     return [GoTo(pose=Pose2(x_m=values[0], y_m=values[1]))], end

@@ -140,3 +140,68 @@ def test_why_it_stands_is_told_while_it_does(shell: Shell, line: str, reason: st
     assert reason in said[0]
     shell.line("estop release")
     shell.line("estop reset")
+
+
+QUESTIONS = [
+    "are you certain?",
+    "what are you looking for?",
+    "where is the bottle?",
+    "how many cups are on the table?",
+    "do you see Anna?",
+    "is the doorway open?",
+]
+"""Small ones, of which the robot would ask back about some, and go to see for others."""
+
+
+@pytest.mark.parametrize("asked", QUESTIONS)
+def test_a_yes_after_a_small_question_goes_on_with_what_was_halted(shell: Shell, asked: str):
+    begin(shell, "walk to the shelf")
+    shell.line("wait")
+    shell.line(asked)
+    assert said[-1] == "Still open: Shall I go on with “walk to the shelf”?"
+    assert not any(one.startswith("Instead") or "Shall I just" in one for one in said)
+    shell.line("yes")
+    assert not shell.brake.halt.on
+    assert open_jobs(shell) == ["walk to the shelf"]
+
+
+@pytest.mark.parametrize("asked", QUESTIONS)
+def test_a_correction_after_a_small_question_is_of_what_was_halted(shell: Shell, asked: str):
+    begin(shell, "walk to the shelf")
+    shell.line("wait")
+    shell.line(asked)
+    shell.line("no, the table")
+    assert "Instead of “walk to the shelf”." in said
+    assert eventually(lambda: last_words(shell) == ["table"])
+
+
+def test_what_is_asked_beside_a_choice_is_no_choice(shell: Shell):
+    shell.line("put the cup on the counter")
+    shell.line("are you certain?")
+    assert said[-1].endswith("Which cup, the red one or the blue one?")
+    shell.line("the red one")
+    assert open_jobs(shell) == ["put the red cup on the counter"]
+
+
+def test_what_is_urgent_is_what_is_under_way(shell: Shell):
+    begin(shell, "go to the cabinet", "now go to the counter")
+    assert eventually(lambda: shell.robot.executive.jobs[0].text == "go to the counter")
+    assert eventually(lambda: shell.robot.view.goal == "go to the counter")
+    shell.line("resume")
+    assert said[-1] == "Nothing is paused: “go to the counter” is under way."
+    shell.line("what are you doing?")
+    assert "counter" in said[-1]
+    assert "cabinet" not in said[-1]
+    shell.line("wait")
+    assert said[-1].startswith("Shall I go on with “go to the counter” and 1 more?")
+    shell.line("yes")
+    shell.line("cancel")
+    assert eventually(lambda: open_jobs(shell) == ["go to the cabinet"])
+
+
+def test_what_was_just_asked_for_now_is_what_is_cancelled(shell: Shell):
+    begin(shell, "go to the cabinet")
+    shell.line("now go to the counter")
+    shell.line("now go to the shelf")
+    shell.line("cancel")
+    assert eventually(lambda: last_words(shell) == ["counter", "cabinet"])

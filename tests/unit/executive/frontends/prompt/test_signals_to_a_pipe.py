@@ -11,6 +11,7 @@ from typing import cast
 import pytest
 
 from executive.frontends.listening.obeying import Conversation
+from executive.frontends.prompt.cli import status_of
 from executive.frontends.prompt.plain import work_off
 from executive.frontends.prompt.shell import Shell
 from intents.speech.ear import Ear, Spoken
@@ -121,3 +122,21 @@ def test_nothing_that_is_heard_after_a_signal_is_done(shell: Shell, number: int)
     for text in LINES:
         talk.take(Spoken(kind="sentence", text=text))
     assert [job.state for job in shell.robot.executive.jobs] == ["cancelled"]
+
+
+def test_the_end_of_the_lines_is_nobody_who_leaves(shell: Shell):
+    shell.line("walk 1.5 m forward")  # as one that a run before this one had left open
+    assert work_off(shell, [])
+    assert [job.state for job in shell.robot.executive.jobs] == ["done"]
+    assert status_of(shell) == ExitStatus.DONE
+
+
+def test_a_robot_that_is_paused_hears_the_next_line(shell: Shell):
+    assert work_off(shell, ["pause", "say hello", "resume"])
+    assert [job.state for job in shell.robot.executive.jobs] == ["done"]
+
+
+def test_what_nobody_lets_go_on_is_not_done(shell: Shell):
+    assert work_off(shell, ["pause", "say hello"])
+    assert [job.state for job in shell.robot.executive.jobs] == ["waiting"]
+    assert status_of(shell) == ExitStatus.FAILED
