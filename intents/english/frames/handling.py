@@ -45,6 +45,8 @@ _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "tos
 def pick(clause: Clause, scope: Scope) -> list[Goal]:
     """Pick up the cup; lift the lid off the pot."""
     slots = Slots(clause, scope)
+    if _goes_inside(clause, scope):
+        return put(clause, scope)
     together = _gathered(clause, slots)
     if together:
         together.count = together.count or "all"
@@ -71,6 +73,17 @@ def pick(clause: Clause, scope: Scope) -> list[Goal]:
     held = isinstance(scope.last, Pick) and objects == [scope.object]
     picks: list[Goal] = [] if held else [Pick(object=replace(o, at=o.at or at)) for o in objects]
     return [*picks, Wait(duration_s=duration)] if duration else picks
+
+
+def _goes_inside(clause: Clause, scope: Scope) -> bool:
+    """Open the crate and get the pear *inside*: there it is to be put.
+
+    Raises:
+        Unclear: Nothing was spoken of that it could go into.
+    """
+    goes = "inside" in clause.particles()
+    need(not goes or scope.device or scope.place, "Inside what shall I put it?")
+    return goes
 
 
 def _gathered(clause: Clause, slots: Slots) -> NounPhrase | None:
@@ -127,6 +140,8 @@ def _put_down(goal: Goal) -> Goal:
 def bring(clause: Clause, scope: Scope) -> list[Goal]:
     """Bring me a drink from the cabinet; bring the cup to the desk."""
     slots = Slots(clause, scope)
+    if _goes_inside(clause, scope):
+        return put(clause, scope)
     if clause.verb in _ON_THE_WAY and slots.peek("") is None:
         raise Misfit("that takes nothing along")  # walk into the table
     beside = moved_beside(clause, slots) or to_part(slots)
@@ -164,8 +179,8 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
     slots.direction("backward")
     slots.done()
     if inside and isinstance(to, str):  # to bring into a cabinet is to put in it, not on it
-        put = Target(in_=to)
-        return [_each(replace(o, at=o.at or at), lambda q: put_at(q, put)) for o in objects]
+        within = Target(in_=to)
+        return [_each(replace(o, at=o.at or at), lambda q: put_at(q, within)) for o in objects]
     return [
         _each(replace(o, at=o.at or at), lambda q: Bring(object=q, to=to or ME)) for o in objects
     ]
