@@ -284,7 +284,8 @@ def give(clause: Clause, scope: Scope) -> list[Goal]:
     if isinstance(to, str):
         return [_put_down(goal) for goal in bring(clause, scope)]
     bare = slots.peek("")
-    known = scope.object is not None and scope.object.at is not None and scope.last is None
+    seen = scope.object is not None and (scope.object.at or scope.object.relation)
+    known = bool(seen) and scope.last is None
     held = bare is None or (bare.phrase.noun == "pronoun" and not known)
     objects = slots.objects(handled=True) or [scope.object or ObjectQuery(held=True)]
     at = slots.loose_place()
@@ -313,7 +314,10 @@ def _is_to_stand(clause: Clause, slots: Slots) -> bool:
     definite = bare is not None and all(
         one.determiner == "the" or (one.count and not one.determiner) for one in bare.phrases
     )
-    return wishes and on and definite and not where[0].of.name("room")
+    room = on and where[0].of.name("room")
+    if wishes and room and bare and bare.phrase.count == "all":
+        raise Unclear(f"Shall I take them to the {room}, or bring them to you from there?")
+    return wishes and on and definite and not room
 
 
 def want(clause: Clause, scope: Scope) -> list[Goal]:

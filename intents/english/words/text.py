@@ -8,6 +8,7 @@ from typing import TypeVar
 from intents.english.words.courtesy import ADDRESSES, courtesy_end
 from intents.english.words.dialects import in_standard_words
 from intents.english.words.disfluency import fluent, unrepeated
+from intents.english.words.existentials import uninverted
 from intents.english.words.lexer import COMMA, DASHES, FULL_STOP, QUOTE, Token, tokenize
 from intents.english.words.lexicon import (
     ADVERBS,
@@ -119,7 +120,8 @@ class Text:
         corrected, self.manners = manners(corrected)
         ordered = in_order(fluent(corrected), self.index)
         plain = _unfinished(unrepeated(_without_fillers(ordered, self.index)))
-        self.tokens: list[Token] = _colloquial(in_standard_words(plain, self.index))
+        plain = _colloquial(in_standard_words(plain, self.index))
+        self.tokens: list[Token] = uninverted(plain)
         self.words: list[str] = [t.text for t in self.tokens]
         self._matches: dict[int, Match | None] = {}
         self._before_nouns = DETERMINERS | ALL | NUMBER_WORDS | {"no"} | set(self.index.colors)

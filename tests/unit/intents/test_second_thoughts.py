@@ -2,8 +2,10 @@
 
 import pytest
 
-from intents.goals import If
+from intents.goals import If, Place
 from intents.outcomes import Goals, Question, Refusal
+from intents.parser import parse
+from intents.vocabulary import Vocabulary
 from tests.unit.intents.hotel_words import assert_means_the_same, heard
 
 SAME = [
@@ -84,3 +86,58 @@ def test_said_later_is_still_said() -> None:
     outcome = heard("tell Ravi to hurry, otherwise we are late")
     assert isinstance(outcome, Goals)
     assert "otherwise we are late" in str(outcome.goals)
+
+
+@pytest.mark.parametrize(
+    ("said", "plainly"),
+    [
+        ("keep walking until you are at the bar, and stop there", "go to the bar and stop there"),
+        ("keep going till you're in the pantry", "go to the pantry"),
+        ("go on until you come to the lift", "go to the lift"),
+    ],
+)
+def test_walk_with_an_end_is_a_walk_there(said: str, plainly: str) -> None:
+    assert_means_the_same(said, plainly)
+
+
+@pytest.mark.parametrize("said", ["keep walking", "keep going forward", "go on with the tea"])
+def test_walk_without_an_end_is_asked_about(said: str) -> None:
+    assert not isinstance(heard(said), Goals)
+
+
+@pytest.mark.parametrize(
+    ("said", "plainly"),
+    [
+        ("Furthest left on the bar there's a saucer, take it to Olga",
+         "take the leftmost saucer on the bar to Olga"),
+        ("on the far right of the counter is a menu, bring it to me",
+         "bring me the rightmost menu on the counter"),
+        ("under the side table there is a cap, give it to Hans",
+         "there is a cap under the side table, give it to Hans"),
+    ],
+)  # fmt: skip
+def test_where_something_is_may_be_told_first(said: str, plainly: str) -> None:
+    assert_means_the_same(said, plainly)
+
+
+def test_all_things_wanted_in_a_room_are_asked_about() -> None:
+    outcome = heard("I want every bath towel in the spa")
+    assert isinstance(outcome, Question)
+    assert "spa" in outcome.question
+
+
+def test_all_that_is_there_is_put_away() -> None:
+    outcome = heard("on the trolley there's a saucer and a peach, put them in the bin")
+    assert isinstance(outcome, Goals)
+    assert [
+        (goal.object.name, goal.object.at) for goal in outcome.goals if isinstance(goal, Place)
+    ] == [
+        ("saucer", "trolley"),
+        ("peach", "trolley"),
+    ]
+
+
+def test_place_that_may_be_either_is_asked_about_where_it_is_told() -> None:
+    world = Vocabulary.of(objects=["cup"], places=["low table", "high table", "sink"])
+    outcome = parse("there are two cups on the table, put them in the sink", world)
+    assert isinstance(outcome, Question)
