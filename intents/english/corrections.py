@@ -15,7 +15,7 @@ from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.lexicon import GOALWARDS, LOCATIVES, SOURCEWARDS, phrases, words
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
-from intents.goals import Goal, ObjectQuery, Switch
+from intents.goals import Close, Goal, ObjectQuery, Open, Switch
 
 _REASONS = words("needs wants has is was asked ordered wanted needed")
 """How it is told why somebody or something was meant."""
@@ -114,6 +114,20 @@ def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     phrase = noun_phrase(text, end) or _spot_after_preposition(text, end)
     if phrase is None:
         return None
+    device = last[-1] if last else None
+    what = phrase.name("object", "place", "room")
+    if isinstance(device, Open | Close | Switch) and what:
+        return [*last[:-1], replace(device, what=what)], _past_marker(text, phrase.end)
+    return _substituted(sentence, phrase, last)
+
+
+def _substituted(sentence: Sentence, phrase: NounPhrase, last: list[Goal]) -> Found:
+    """What was asked for, of what the phrase says instead.
+
+    Raises:
+        Misfit: Nothing that it could take the place of was spoken of.
+    """
+    text, scope = sentence.text, sentence.scope
     _take_source(text, phrase)
     old = scope.person if is_person(phrase, scope) else scope.object
     if phrase.is_spot:

@@ -57,6 +57,7 @@ def pick(clause: Clause, scope: Scope) -> list[Goal]:
     if slots.take_person("to", "for", "") is not None:
         raise Misfit("that is to bring something")
     moved = not _then(clause).isdisjoint(("put", "drop", "bring", "give"))
+    moved = moved or _is_moved_on(clause)  # take the cups, and put them there
     objects = slots.objects(handled=moved)
     if not objects and scope.object:
         objects = [scope.object]

@@ -248,6 +248,7 @@ def _harms(text: str, span: Passed, index: NameIndex) -> dict[str, float]:
         "when": NEVER if short and not _WHEN.isdisjoint(heard) else 0.0,  # "tomorrow at dawn"
         "how": NEVER if short and first in _HOW else 0.0,
         "order": NEVER if any(is_order(heard) for is_order in _ORDERS) or _turns(words) else 0.0,
+        "corrects": NEVER if _corrects(heard, index) else 0.0,
         "told": NEVER if goes_on and words[-1] in _TELLING else 0.0,  # "I already put it there"
         "event": NEVER if f"{' '.join(heard)} ".startswith(_EVENTS) else 0.0,
         "grave": NEVER if _picks_out(heard, short=short) else 0.0,
@@ -270,6 +271,13 @@ def _orders(heard: list[str]) -> bool:
         and (bool(verbs_at([verb], 0)) or is_unheard_verb(verb))
         for n, (verb, after) in enumerate(pairwise(heard))
     )
+
+
+def _corrects(heard: list[str], index: NameIndex) -> bool:
+    """Whether it may say what is meant instead: "I mean the radio", "or rather, the other bin"."""
+    marked = heard[:2] in (["i", "mean"], ["i", "meant"], ["or", "rather"], ["no", "wait"])
+    marked = marked or heard[0] in ("no", "rather", "correction")
+    return marked and any(index.match(heard, at) for at in range(1, min(len(heard), _SHORT)))
 
 
 def _turns(words: list[str]) -> bool:
