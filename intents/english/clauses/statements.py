@@ -1,10 +1,12 @@
 """Statements: "there is a cup on the table", "she is in the kitchen"."""
 
+from dataclasses import replace as replace_words
+
 from msgspec.structs import replace
 
 from intents.english.phrases.complements import read_list
 from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
-from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.phrase import NounPhrase, is_all
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.words import lexicon
 from intents.english.words.text import Text
@@ -39,6 +41,9 @@ def stated(
     if there and text.word(phrase.end) == "and":
         return phrase, _mention_several(text, phrase, scope, where)
     mention_phrase(phrase, scope, where)
+    many = there and text.word(at + 1) == "are" and is_all(replace_words(phrase, determiner="the"))
+    if many and scope.object and scope.object.count is None:
+        scope.mention(replace(scope.object, count="all"))  # there are cups here, take *them*
     return phrase, phrase.end
 
 
@@ -66,5 +71,7 @@ def mention_phrase(phrase: NounPhrase, scope: Scope, where: str | None = None) -
         scope.person = Person(name=phrase.owner)
     what = (to_person if is_person(phrase, scope) else to_object)(phrase, scope)
     what = replace(what, at=what.at or where)
+    if isinstance(what, ObjectQuery) and what.count is None and is_all(phrase):
+        what = replace(what, count="all")  # the cups are in the sink, put *them* away
     scope.mention(what.at)
     scope.mention(what)

@@ -59,3 +59,20 @@ def test_owner_is_no_place_to_take_it_off() -> None:
     outcome = heard("put the cap of Hans on the bar")
     assert isinstance(outcome, Goals)
     assert "off" not in (outcome.reason or "")
+
+
+@pytest.mark.parametrize(
+    ("said", "plainly"),
+    [
+        ("there are bath towels on the trolley, put them in the wardrobe",
+         "put all the bath towels from the trolley in the wardrobe"),
+        ("the teapots are on the bar, bring them to Hans", "bring all teapots on the bar to Hans"),
+        ("go to the spa and see if Lucia is there", "go to the spa, find Lucia in the spa"),
+        ("go to the spa and count how many are sitting there",
+         "go to the spa and count the people sitting there"),
+        ("out of the row of teapots on the bar I want the smallest one",
+         "of the teapots on the bar, bring me the smallest one"),
+    ],
+)  # fmt: skip
+def test_what_was_told_of_several_is_of_all(said: str, plainly: str) -> None:
+    assert_means_the_same(said, plainly)
