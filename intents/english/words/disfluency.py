@@ -159,8 +159,9 @@ def unrepeated(tokens: list[Token]) -> list[Token]:
 
 def _is_nowhere(words: list[str], at: int) -> bool:
     """I cannot find my keys *anywhere*."""
-    sought = ("not", "find") in pairwise(words[:at]) or ("not", "see") in pairwise(words[:at])
-    return words[at] in ("anywhere", "anymore") and sought
+    if words[at] not in ("anywhere", "anymore"):
+        return False
+    return not {("not", "find"), ("not", "see")}.isdisjoint(pairwise(words[:at]))
 
 
 def _tells(begun: list[str]) -> bool:
@@ -170,9 +171,8 @@ def _tells(begun: list[str]) -> bool:
 
 def _restarted(tokens: list[Token], index: NameIndex) -> list[Token]:
     """Put the pin *I mean put the bin*: begun again with the same verb, or behind a lost word."""
-    at = 1
+    at, words = 1, [token.text for token in tokens]
     while at < len(tokens):
-        words = [token.text for token in tokens]
         start = at + (words[at] == COMMA)
         end = _phrase_end(words, start, _RESTARTS)
         if end is None or _tells(words[:at]):
@@ -186,7 +186,7 @@ def _restarted(tokens: list[Token], index: NameIndex) -> list[Token]:
             at += 1
             continue
         tokens = tokens[:begin] + tokens[end:]
-        at = begin + 1
+        at, words = begin + 1, [token.text for token in tokens]
     return tokens
 
 

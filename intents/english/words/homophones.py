@@ -17,6 +17,7 @@ _WHOM = words("me us him her them the my your")
 _TAKES = words("take get grab pick clear remove lift wipe move fetch bring knock collect")
 _WAITED = NUMBER_WORDS | words("for a until here there while") | {COMMA, FULL_STOP}
 _COLOURS = {"read": "red", "blew": "blue", "wight": "white"}
+_ALIKE = frozenset(_COLOURS) | words("sea their hear weight wood four two than of")
 _SIGNS = (COMMA, FULL_STOP)
 _SAYS = words("say tell announce shout whisper repeat sing ask spell")
 
@@ -27,7 +28,8 @@ def as_meant(tokens: list[Token], index: NameIndex) -> tuple[list[Token], list[t
     meant: list[Token] = []
     changed: list[tuple[str, str]] = []
     for at, token in enumerate(tokens):
-        word = "" if said[at] in index.words else _meant(said, at, index)
+        alike = said[at] in _ALIKE and said[at] not in index.words
+        word = _meant(said, at, index) if alike else ""
         if word and not _SAYS.intersection(said[:at]):
             changed.append((token.raw, word))
             said[at] = word
