@@ -38,6 +38,8 @@ _BEFORE = re.compile(
     rf"as soon as|after|before|unless|half\s?way)\b|\b(?:after|in|within)\s+{_SO_MUCH}\s*$"
 )
 """What stands before one: a clause that says when."""
+_STEP = re.compile(r"(?:and|then|and then)(?: please)?")
+"""Go to the bar, *and* stop there: a step of a plan, to who is not under way."""
 _OPENING = re.compile(
     r"^(?:\W*(?:please|robot|hey|okay|ok|now|just|then|and|but|so|could you|can you|"
     r"will you|would you)\b)*\W*"
@@ -62,6 +64,9 @@ class Surroundings(NamedTuple):
 
     def limit(self, before: str, after: str) -> bool:
         """Whether a cry between these words of a clause only limits something."""
+        planned = _STEP.fullmatch(before.strip()) and any(map(_is_order, self.ahead))
+        if planned and self.at_rest and not self.exclaimed:
+            return True
         fronted = self.ahead[-1] if self.ahead and not _OPENING.sub("", before).strip() else ""
         if not (_AFTER.match(after) or _BEFORE.search(before) or _BEFORE.search(fronted)):
             return False

@@ -62,7 +62,7 @@ def unkept(text: Text, goals: Sequence[Goal]) -> tuple[str, str]:
         if kind == "later" and acts:
             return f"I begin at once, and cannot do it “{said.lower()}”", ""
     kept_up = _kept_up(text)
-    if kept_up and any(not isinstance(goal, _LASTING) for goal in acts):
+    if kept_up and not all(map(_has_end, acts)):
         return f"I cannot go on without an end, “{kept_up}”", ""
     watched = _while_so(text)
     brief = any(isinstance(goal, Balance | Follow | Gesture) for goal in acts)
@@ -76,6 +76,11 @@ def unkept(text: Text, goals: Sequence[Goal]) -> tuple[str, str]:
     if beside and acts:
         return "", f"I begin as soon as I am free to: “{beside}” changes nothing"
     return "", _postured(text, goals)
+
+
+def _has_end(goal: Goal) -> bool:
+    """Whether what one keeps doing ends: keep walking *until you are at the bar*."""
+    return isinstance(goal, _LASTING) or (isinstance(goal, GoTo) and goal.place is not None)
 
 
 def _kept_up(text: Text) -> str:

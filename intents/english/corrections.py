@@ -1,5 +1,8 @@
 """Taking back what was just said: "the red cup, no wait, the blue one"."""
 
+from msgspec.structs import replace
+
+from intents.english.clauses.markers import OPENINGS, marker_end
 from intents.english.clauses.told import told_end
 from intents.english.faithfulness import strings
 from intents.english.phrases.noun_phrases import noun_phrase
@@ -10,86 +13,14 @@ from intents.english.substitution import goes_to_somebody, redirected, substitut
 from intents.english.trouble import Misfit
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.lexicon import GOALWARDS, LOCATIVES, SOURCEWARDS, phrases, words
-from intents.english.words.repairs import TAKES_BACK
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
-from intents.goals import Goal, ObjectQuery
+from intents.goals import Close, Goal, ObjectQuery, Open, Switch
 
-_MARKERS = TAKES_BACK | phrases(
-    "oh sorry,not that,wait,oh no,no not that,not that one,not this one,no not that one,"
-    "no not this one,wrong one,on second thought,on second thoughts,strike that,change that,"
-    "not there,scrap that,forget that,cancel that,i wanted to say,i was going to say,"
-    "i wanted to ask for,what i meant was,what i mean is,what i meant is,i should have said,"
-    "change of plan,change of plans,i tell a lie,hold on,hang on,just kidding,only kidding,jk,"
-    "i take that back,that is wrong,my bad,silly me,stupid me,on reflection,come to think of it,"
-    "i got that wrong,or no,what am i saying,that i think of it,that i think about it,pardon me,"
-    "i beg your pardon,nah,nope,i misspoke,i said that wrong"
-)
-_LEADING = words("oh ah eh er uh um ach och well lol haha oops actually so ok okay wait sorry and")
-"""What may stand between markers, and begins none by itself."""
-_NEEDS_A_THING = phrases("make it,make that")
-"""These change what is to be had: "make it *a lemonade*", not "make it quick"."""
 _REASONS = words("needs wants has is was asked ordered wanted needed")
 """How it is told why somebody or something was meant."""
-_PAUSES = phrases("hold on,hang on")
 _BEHIND = phrases("i mean,i meant,rather,instead,i mean to say,sorry,that is")
 """What stands behind a correction rather than before it."""
-_OPENINGS = ("sorry", "oh", "wait", "pardon", "whoops")
-"""Markers that open a new sentence as often as they take back the one before."""
-
-
-def _marker_end(text: Text, at: int) -> int | None:
-    """Where the marker of a correction ends, if one begins at a word.
-
-    What is only told may stand between two: "no wait, he had his nap, I mean the other room".
-    """
-    while text.word(at) in _LEADING and _marker(text, at) is None and at < len(text):
-        at += 1 + (text.word(at + 1) == COMMA)
-    end = _marker(text, at)
-    if end is None or (text.word(at) == "wait" and text.word(end) != COMMA and end == at + 1):
-        return None
-    while True:
-        following = end + (text.word(end) == COMMA)
-        while text.word(following) in _LEADING and following < len(text):
-            following += 1 + (text.word(following + 1) == COMMA)
-        further = _marker(text, following)
-        apart = following > end or text.word(end) == FULL_STOP
-        following += text.word(following) == FULL_STOP
-        told = _told_end(text, following) if apart and not further else None
-        if told is not None and text.word(told) == COMMA and _marker(text, told + 1):
-            further = told + 1
-        elif told is not None and text.word(at) == "no" and verbs_at(text.words, told + 1):
-            return told + 1  # no hang on, it is Ada who wants it, bring it to Ada
-        if further is None:
-            break
-        end = further
-    while text.word(end) in (COMMA, *_OPENINGS):
-        end += 1
-    return end if end < len(text) else None
-
-
-def _told_end(text: Text, at: int) -> int | None:
-    """Where a statement ends, or a question one asks oneself: "what do I need a hammer for"."""
-    if text.word(at) in ("what", "why", "how") and "i" in text.words[at + 1 : at + 4]:
-        while at < len(text) and text.word(at) not in (COMMA, FULL_STOP):
-            at += 1
-        return at
-    return told_end(text, at)
-
-
-def _marker(text: Text, at: int) -> int | None:
-    """Where one marker ends."""
-    end = text.phrase_end(_MARKERS, at)
-    if end is not None and tuple(text.words[at:end]) in _NEEDS_A_THING:
-        phrase = noun_phrase(text, end)
-        known = phrase is not None and phrase.name("object", "category", "place")
-        return end if phrase is not None and (known or phrase.noun == "one") else None
-    pause = end is not None and tuple(text.words[at:end]) in _PAUSES
-    if end is not None and pause and text.word(end) not in (COMMA, FULL_STOP):
-        return None  # hold on to the rail
-    return end
-
-
 _RETRACTS = phrases("leave it,leave that,leave them,leave it be,leave it alone,let it be")
 
 _LEAVES = phrases(
@@ -104,19 +35,56 @@ def retraction_end(text: Text, at: int) -> int | None:
     return end if end and (end >= len(text) or text.word(end) in (COMMA, FULL_STOP)) else None
 
 
+def _denied_end(sentence: Sentence, at: int, last: list[Goal]) -> int | None:
+    """No, *do not tell her that*; no, *leave Leo alone*: where what was asked ends to be denied.
+
+    It speaks of nothing but what was asked, in the same verb or in one for all.
+    """
+    text = sentence.text
+    told = told_end(text, at)
+    if told is not None and text.word(told) in (COMMA, FULL_STOP):
+        at = told + 1  # no, that is rude, do not tell her that
+    alone = text.word(at) == "leave"
+    if not alone and text.words[at : at + 2] != ["do", "not"]:
+        return None
+    first = at + 1 if alone else at + 2
+    end = first
+    while end < len(text) and text.word(end) not in (COMMA, FULL_STOP):
+        end += 1
+    if alone:
+        left = text.word(end - 1) in ("alone", "be", "out") and end > first + 1
+        return end if left and _speaks_only_of(text, first, end, last) else None
+    verb = sentence.notes.verb
+    begun = {sense for sense, _ in verbs_at(text.words, first)}
+    same = verb is not None and not begun.isdisjoint(verb.senses)
+    at_all = end == first or text.word(first) in _DENIED
+    return end if (same or at_all) and _speaks_only_of(text, first, end, last) else None
+
+
+_DENIED = words("do disturb bother wake trouble interrupt worry")
+"""Do not *do that*: verbs that deny whatever was asked for."""
+
+
+def _speaks_only_of(text: Text, at: int, end: int, last: list[Goal]) -> bool:
+    """Whether all names between two words are of what was asked for."""
+    said = set(strings(last))
+    names = [name for n in range(at, end) if (name := text.name_at(n))]
+    return all(any(one.name.lower() in said for one in name.names) for name in names)
+
+
 def taken_back(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """The red cup, *no the blue one*: looked for before "no" is passed over as an opening."""
     text = sentence.text
     while text.word(at) in (COMMA, FULL_STOP) and at < len(text):
         at += 1
-    end = _marker_end(text, at)
+    end = marker_end(text, at)
     if end is None or not last:
         return None
     begins = at == 0  # it takes back what was said before, if it is no command of its own
     plain = text.word(end - 1) != COMMA and end < at + 2  # no cup there?
     if begins and (verbs_at(text.words, end) or (plain and text.word(end) != "the")):
         return None
-    new_sentence = text.word(at - 1) == FULL_STOP and text.word(at) in _OPENINGS
+    new_sentence = text.word(at - 1) == FULL_STOP and text.word(at) in OPENINGS
     if new_sentence and verbs_at(text.words, end):
         return None
     return correction(sentence, at, last)
@@ -125,7 +93,7 @@ def taken_back(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
 def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """No wait, the blue one; I mean go to the kitchen."""
     text, scope = sentence.text, sentence.scope
-    end = _marker_end(text, at) or _told_apart(text, at, scope.object) or _meant(text, at)
+    end = marker_end(text, at) or _told_apart(text, at, scope.object) or _meant(text, at)
     denied = _past_denied(text, at if end is None else end, last, scope)
     if denied is not None:
         end = denied
@@ -133,6 +101,7 @@ def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
         return None
     sentence.notes.passed.append((at, end))
     undone = retraction_end(text, end) or named_retraction_end(text, end, last)
+    undone = undone or _denied_end(sentence, end, last)
     if undone:
         sentence.notes.passed.append((end, undone))
         return [], undone
@@ -145,6 +114,20 @@ def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     phrase = noun_phrase(text, end) or _spot_after_preposition(text, end)
     if phrase is None:
         return None
+    device = last[-1] if last else None
+    what = phrase.name("object", "place", "room")
+    if isinstance(device, Open | Close | Switch) and what:
+        return [*last[:-1], replace(device, what=what)], _past_marker(text, phrase.end)
+    return _substituted(sentence, phrase, last)
+
+
+def _substituted(sentence: Sentence, phrase: NounPhrase, last: list[Goal]) -> Found:
+    """What was asked for, of what the phrase says instead.
+
+    Raises:
+        Misfit: Nothing that it could take the place of was spoken of.
+    """
+    text, scope = sentence.text, sentence.scope
     _take_source(text, phrase)
     old = scope.person if is_person(phrase, scope) else scope.object
     if phrase.is_spot:
@@ -163,6 +146,25 @@ def correction(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     if reason is not None:
         sentence.notes.passed.append((end, reason))
     return [substitute(g, old, new) for g in last], reason or end
+
+
+def switched_over(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """The lamp on, no, *off*: the other way round; the lamp on, wait a bit, then *off*: again."""
+    text = sentence.text
+    end = marker_end(text, at) or at
+    on = {"on": True, "off": False}.get(text.word(end))
+    after = end + 1 + (text.word(end + 1) == COMMA)
+    after = after + 1 if text.word(after) in ("then", "instead", "again") else end + 1
+    closed = after >= len(text) or text.word(after) in (COMMA, FULL_STOP)
+    device = next((goal for goal in reversed(sentence.before) if isinstance(goal, Switch)), None)
+    if on is None or not closed or device is None or device.on == on:
+        return None
+    if end == at and text.word(at - 1) in ("then", "and"):
+        return [*last, replace(device, on=on)], after
+    if not isinstance(last[-1], Switch):
+        return None
+    sentence.notes.passed.append((at, end))
+    return [replace(goal, on=on) if isinstance(goal, Switch) else goal for goal in last], after
 
 
 def _redirected(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:

@@ -26,6 +26,7 @@ from intents.goals import (
 )
 
 _HANDS = 2
+_MOVES = (Bring, Give, Place)
 
 
 def joined(before: list[Goal], goal: Goal, *, first: str) -> Goal:
@@ -117,6 +118,32 @@ def as_wished(goal: Goal, wish: Goal) -> Goal:
     if isinstance(goal, Bring) and isinstance(wish, Bring) and goal.object.at is None:
         return replace(goal, object=replace(goal.object, at=wish.object.at))
     return goal
+
+
+def instead(before: list[Goal], goal: Goal, *, said: bool, but: bool) -> Goal:
+    """The cup to Ada, but *if she is out, put it on the desk*: one or the other, and not both.
+
+    Args:
+        before: The goals before; what the other stands in place of is taken off.
+        goal: What is to be done on a condition.
+        said: It is said to be done instead.
+        but: It is set against what stands before it.
+    """
+    last = before[-1] if before else None
+    if not (isinstance(goal, If) and goal.then and not goal.else_ and isinstance(last, _MOVES)):
+        return goal
+    other, holds = goal.then[0], goal.condition
+    same = isinstance(other, _MOVES) and _bare(other.object) == _bare(last.object)
+    receiver = last.to if isinstance(last, Bring | Give) else None
+    someone = holds.person if isinstance(holds, Present) and holds.negated else None
+    absent = someone and isinstance(receiver, Person) and someone.name == receiver.name
+    if not (said or (same and (absent or but))):
+        return goal
+    before.pop()
+    if isinstance(holds, Present) and holds.negated:
+        there = replace(holds, negated=False)
+        return If(condition=there, then=(last,), else_=goal.then)
+    return replace(goal, else_=(last,))
 
 
 def or_else(before: list[Goal], goal: Goal) -> Goal:

@@ -19,7 +19,7 @@ row here.
 """
 
 from intents.english import afterthoughts, exclusions
-from intents.english.corrections import correction
+from intents.english.corrections import correction, switched_over
 from intents.english.ending_early import ended_early
 from intents.english.reading import Rules
 from intents.english.readings import (
@@ -137,6 +137,8 @@ RULES = Rules(
         without_verb.only_named,
     ),
     afterthoughts=(
+        # "No, off" names nothing that a correction could put in a thing's place.
+        switched_over,
         # Anything can be taken back, what is a condition or "after ..." as well.
         correction,
         afterthoughts.left_undone,

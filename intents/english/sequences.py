@@ -6,7 +6,7 @@ from contextlib import suppress
 from intents.english.clauses.openings import otherwise_end, skip_openings
 from intents.english.clauses.statements import mention_phrase
 from intents.english.corrections import correction, taken_back
-from intents.english.joining import as_wished, joined, or_else, same_object
+from intents.english.joining import as_wished, instead, joined, or_else, same_object
 from intents.english.phrases.complements import connector_end
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.reading import Found, Sentence, clause, not_understood
@@ -78,7 +78,7 @@ def sequence(sentence: Sentence, at: int) -> Found:
             notes.trace.append((text.raw(at, end), tuple(found)))
         if found:
             clause_at = begun
-            last = _append(here, found, wish, text.words[begun : at + 1])
+            last = _append(here, found, wish, text.words[begun : at + 1], text.words[at:end])
         else:  # what is only told stands between a clause and what corrects it
             notes.passed.append((begun, end))
             notes.wanted = bool(wish)
@@ -100,7 +100,9 @@ def _mention_first(sentence: Sentence, at: int, end: int) -> None:
             return
 
 
-def _append(sentence: Sentence, found: list[Goal], wish: list[Goal], opening: list[str]) -> int:
+def _append(
+    sentence: Sentence, found: list[Goal], wish: list[Goal], opening: list[str], said: list[str]
+) -> int:
     """Add what was found to the goals before, in their light; where it begins among them.
 
     Args:
@@ -108,6 +110,7 @@ def _append(sentence: Sentence, found: list[Goal], wish: list[Goal], opening: li
         found: The goals of a clause.
         wish: The goal before, if it was a wish that the clause may spell out.
         opening: The words that link the clause to those before, and its first.
+        said: The words of the clause.
     """
     goals, scope = sentence.before, sentence.scope
     if wish and same_object(wish[0], found[:1]):
@@ -115,6 +118,8 @@ def _append(sentence: Sentence, found: list[Goal], wish: list[Goal], opening: li
     failing = opening[-1] == "if" and not isinstance(goals[-1] if goals else None, Find)
     if goals and found and (failing or "or" in opening[:-1]):
         found[0] = or_else(goals, found[0])
+    if goals and found:
+        found[0] = instead(goals, found[0], said="instead" in said, but="but" in opening)
     if goals and found:
         found[0] = joined(goals, found[0], first=opening[-1])
     last = len(goals)

@@ -96,6 +96,8 @@ def mention(holds: Condition, scope: Scope, *, met: bool = True) -> None:
             scope.mention(spoken_of.at)
         elif isinstance(one, Holding) and one.object.name:
             scope.mention(one.object)
+        elif isinstance(one, State) and {n.kind for n in scope.index.exact(one.what)} == {"place"}:
+            scope.mention(one.what)  # if the drawer is open, put it in there
 
 
 def _asked(text: Text, at: int, scope: Scope) -> tuple[Condition, int] | None:

@@ -16,7 +16,8 @@ _SEEN = lexicon.words(
 _IF_NOT = lexicon.phrases(
     "if no,if it is not,if they are not,if there is not,if there are not,if there is none,"
     "if there are none,if there is not one,if there is not any,if it is not there,"
-    "if they are not there,if you do not,if you can not"
+    "if they are not there,if you do not,if you can not,if he is not,if she is not,"
+    "if he is not there,if she is not there,if nobody is,if nobody is there,if no one is there"
 )
 """These are "otherwise" only where nothing follows: "if it is not on the table" is another."""
 _NUMERALS = lexicon.words("one two three four five")

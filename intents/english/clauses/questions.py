@@ -50,11 +50,17 @@ def counted(text: Text, at: int, scope: Scope) -> Found:
     at += text.word(at) in lexicon.OPERATOR_WORDS  # count me the cups
     for skipped in ("how", "many", "the", "number", "amount", "of"):
         at += text.word(at) == skipped
-    phrase = noun_phrase(text, at)
+    phrase = noun_phrase(text, at) or _those_who(text, at)
     if phrase is None:
         raise Unclear("What shall I count?")
     end = read_on(text, phrase) if text.word(phrase.end) in BE else phrase.end
     return [_count(phrase, scope)], end + 2 * (text.words[end : end + 2] in _FOR_ME)
+
+
+def _those_who(text: Text, at: int) -> NounPhrase | None:
+    """How many *are sitting there*: people, without the word."""
+    posed = text.word(at) == "are" and text.lookup(lexicon.POSTURES, at + 1)
+    return NounPhrase(at, at, noun="person", said="people") if posed else None
 
 
 _FOR_ME = (["for", "me"], ["for", "us"])

@@ -6,7 +6,8 @@ from msgspec.structs import replace
 
 from intents.english.clauses.compounds import condition
 from intents.english.clauses.conditions import IF
-from intents.english.clauses.openings import skip_openings
+from intents.english.clauses.markers import marker_end
+from intents.english.clauses.openings import nothing_end, otherwise_end, skip_openings
 from intents.english.clauses.questions import property_question, question
 from intents.english.clauses.self_talk import about_robot, small_talk
 from intents.english.phrases.complements import connector_end, ends_clause
@@ -42,10 +43,25 @@ def content_end(text: Text, at: int) -> int:
         after = connector_end(text, end) if text.word(end) != COMMA else end + 1
         if after and text.word(end) == COMMA:
             after = connector_end(text, after) or after
-        if after and end > at and verbs_at(text.words, after):
+        if after and end > at and (verbs_at(text.words, after) or _is_otherwise(text, after)):
             return end
         end += 1
     return end
+
+
+def _is_otherwise(text: Text, at: int) -> bool:
+    """Say supper is ready; *if she is not there, come back*: no part of what is to be said."""
+    start = otherwise_end(text, at)
+    if start is None and text.phrase_end(IF, at):
+        start = at
+        while start < len(text) and text.word(start) not in (COMMA, FULL_STOP):
+            start += 1
+        if "not" not in text.words[at:start] or text.word(start) != COMMA:
+            return False
+    if start is None:
+        return False
+    act = skip_openings(text, start)
+    return bool(nothing_end(text, start) or verbs_at(text.words, act))
 
 
 def _before_times(text: Text, at: int, end: int) -> int:
@@ -77,6 +93,27 @@ def _last_listener(text: Text, at: int, end: int, scope: Scope) -> tuple[Person 
     return None, end
 
 
+def _meant_listener(text: Text, first: NounPhrase, scope: Scope) -> NounPhrase:
+    """Tell Ada, *no, Leo*, that ...: who is told in the end."""
+    marked = marker_end(text, first.end + 1) if text.word(first.end) == COMMA else None
+    other = _listener(text, marked, scope) if marked else None
+    if other is None or text.word(other.end) not in (COMMA, "that", QUOTE, FULL_STOP):
+        return first
+    other.end += text.word(other.end) == COMMA
+    return other
+
+
+def _is_broken_off(text: Text, at: int) -> bool:
+    """Say to Ada, *no, say to Leo ...*: what was begun is taken back, and not to be said."""
+    marked = marker_end(text, at + 1) if text.word(at) == COMMA else None
+    if marked is None:
+        return False
+    begun = [sense for sense, _ in verbs_at(text.words, marked)]
+    denied = text.words[marked : marked + 2] == ["do", "not"] or text.word(marked) == "leave"
+    return denied or not _SPEAKING.isdisjoint(begun)
+
+
+_SPEAKING = {"say", "tell", "answer", "inform"}
 _SENDERS = (["for", "me"], ["for", "us"])
 _TO_SOMEBODY = lexicon.words(
     "went go gone going gave give given spoke talk talked brought sent told"
@@ -120,7 +157,10 @@ def say(text: Text, at: int, scope: Scope) -> Found:
     if text.word(at) in _TO:
         first = _listener(text, at + 1, scope)
         if first:
+            first = _meant_listener(text, first, scope)
             to, at = to_person(first, scope), first.end
+    if to is not None and _is_broken_off(text, at):
+        return [Find(person=to)], at
     asked = _asked(text, at, scope)
     if asked and isinstance(asked[0][0], Count):
         return _to_listener(text, asked, scope)
@@ -234,7 +274,10 @@ def _tell(text: Text, at: int, listener: Person | None, scope: Scope) -> Found:
         at += 1
     first = None if listener else _listener(text, at, scope)
     if first and text.word(first.end) != "'s":
+        first = _meant_listener(text, first, scope)
         to, at = to_person(first, scope), first.end
+    if to is not None and _is_broken_off(text, at):
+        return [Find(person=to)], at
     if to not in (None, ME) and text.word(at) == COMMA and verbs_at(text.words, at + 1):
         return [Find(person=to)], at
     at += first is not None and text.word(at) == COMMA

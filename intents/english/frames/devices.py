@@ -4,10 +4,10 @@ from intents.english.frames.slots import Slots
 from intents.english.phrases.complements import Clause, Complement
 from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import Scope
-from intents.english.trouble import Misfit, NotUnderstood, Unclear
+from intents.english.trouble import Misfit, NotUnderstood, Unclear, listing
 from intents.english.words.lexer import singular
 from intents.english.words.lexicon import words
-from intents.goals import Close, Goal, Open, Place, Switch
+from intents.goals import Bring, Close, ForEach, Goal, Open, Place, Switch
 
 _OPENABLE = words(
     "door drawer fridge refrigerator freezer cabinet cupboard window hand gripper box bottle jar "
@@ -31,10 +31,7 @@ def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> 
     names: list[str] = []
     for phrase in said.phrases:
         if phrase.noun == "pronoun":
-            name = scope.device or (scope.object.name if scope.object else scope.place)
-            if not name:
-                raise Unclear(f"What shall I {act}?")
-            names.append(name)
+            names.append(_spoken_of(phrase, scope, generic, act))
             continue
         name = phrase.name("object", "place", "room")
         head = singular(phrase.said.split()[-1]) if phrase.said else ""
@@ -54,6 +51,26 @@ def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> 
         else:
             raise NotUnderstood(f"I cannot {act} “{phrase.said}”")
     return names
+
+
+def _spoken_of(phrase: NounPhrase, scope: Scope, generic: frozenset[str], act: str) -> str:
+    """What "it" is: of what was spoken of last, that which is opened, closed or switched.
+
+    Raises:
+        Unclear: Nothing is, or two things may be meant.
+    """
+    thing, last = scope.object.name if scope.object else None, scope.last
+    filled = last.in_ if act != "switch" and isinstance(last, Place) else None
+    apart = (thing,) if phrase.said in ("them", "they") else (filled, thing, scope.place)
+    known = [name for name in (scope.device, *apart) if name]
+    fits = next((name for name in known if singular(name.split()[-1].lower()) in generic), filled)
+    moved = isinstance(last, Place | Bring | ForEach) and scope.device is None
+    if fits is None and moved and len(known) > 1:
+        either = tuple(dict.fromkeys(known))
+        raise Unclear(f"What shall I {act}, the {listing(either)}?", either, phrase.said)
+    if not known:
+        raise Unclear(f"What shall I {act}?")
+    return fits or known[0]
 
 
 def _is_only(phrase: NounPhrase, head: str, generic: frozenset[str]) -> bool:

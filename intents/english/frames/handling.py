@@ -45,6 +45,8 @@ _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "tos
 def pick(clause: Clause, scope: Scope) -> list[Goal]:
     """Pick up the cup; lift the lid off the pot."""
     slots = Slots(clause, scope)
+    if _goes_inside(clause, scope):
+        return put(clause, scope)
     together = _gathered(clause, slots)
     if together:
         together.count = together.count or "all"
@@ -55,6 +57,7 @@ def pick(clause: Clause, scope: Scope) -> list[Goal]:
     if slots.take_person("to", "for", "") is not None:
         raise Misfit("that is to bring something")
     moved = not _then(clause).isdisjoint(("put", "drop", "bring", "give"))
+    moved = moved or _is_moved_on(clause)  # take the cups, and put them there
     objects = slots.objects(handled=moved)
     if not objects and scope.object:
         objects = [scope.object]
@@ -71,6 +74,17 @@ def pick(clause: Clause, scope: Scope) -> list[Goal]:
     held = isinstance(scope.last, Pick) and objects == [scope.object]
     picks: list[Goal] = [] if held else [Pick(object=replace(o, at=o.at or at)) for o in objects]
     return [*picks, Wait(duration_s=duration)] if duration else picks
+
+
+def _goes_inside(clause: Clause, scope: Scope) -> bool:
+    """Open the crate and get the pear *inside*: there it is to be put.
+
+    Raises:
+        Unclear: Nothing was spoken of that it could go into.
+    """
+    goes = "inside" in clause.particles()
+    need(not goes or scope.device or scope.place, "Inside what shall I put it?")
+    return goes
 
 
 def _gathered(clause: Clause, slots: Slots) -> NounPhrase | None:
@@ -127,6 +141,8 @@ def _put_down(goal: Goal) -> Goal:
 def bring(clause: Clause, scope: Scope) -> list[Goal]:
     """Bring me a drink from the cabinet; bring the cup to the desk."""
     slots = Slots(clause, scope)
+    if _goes_inside(clause, scope):
+        return put(clause, scope)
     if clause.verb in _ON_THE_WAY and slots.peek("") is None:
         raise Misfit("that takes nothing along")  # walk into the table
     beside = moved_beside(clause, slots) or to_part(slots)
@@ -164,8 +180,8 @@ def bring(clause: Clause, scope: Scope) -> list[Goal]:
     slots.direction("backward")
     slots.done()
     if inside and isinstance(to, str):  # to bring into a cabinet is to put in it, not on it
-        put = Target(in_=to)
-        return [_each(replace(o, at=o.at or at), lambda q: put_at(q, put)) for o in objects]
+        within = Target(in_=to)
+        return [_each(replace(o, at=o.at or at), lambda q: put_at(q, within)) for o in objects]
     return [
         _each(replace(o, at=o.at or at), lambda q: Bring(object=q, to=to or ME)) for o in objects
     ]
@@ -269,7 +285,8 @@ def give(clause: Clause, scope: Scope) -> list[Goal]:
     if isinstance(to, str):
         return [_put_down(goal) for goal in bring(clause, scope)]
     bare = slots.peek("")
-    known = scope.object is not None and scope.object.at is not None and scope.last is None
+    seen = scope.object is not None and (scope.object.at or scope.object.relation)
+    known = bool(seen) and scope.last is None
     held = bare is None or (bare.phrase.noun == "pronoun" and not known)
     objects = slots.objects(handled=True) or [scope.object or ObjectQuery(held=True)]
     at = slots.loose_place()
@@ -298,7 +315,10 @@ def _is_to_stand(clause: Clause, slots: Slots) -> bool:
     definite = bare is not None and all(
         one.determiner == "the" or (one.count and not one.determiner) for one in bare.phrases
     )
-    return wishes and on and definite and not where[0].of.name("room")
+    room = on and where[0].of.name("room")
+    if wishes and room and bare and bare.phrase.count == "all":
+        raise Unclear(f"Shall I take them to the {room}, or bring them to you from there?")
+    return wishes and on and definite and not room
 
 
 def want(clause: Clause, scope: Scope) -> list[Goal]:

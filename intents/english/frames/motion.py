@@ -40,6 +40,7 @@ _THROUGH = (
     )),
 )  # fmt: skip
 """Ways that lead where only a floor is, with the last words before what is named."""
+_ONWARD = ("keep going", "go on", "carry on")
 _BY = ("forward", "backward", "left", "right")
 
 
@@ -92,7 +93,7 @@ def go(clause: Clause, scope: Scope) -> list[Goal]:
     if pushed and (direction or (target and target.phrase.determiner)):
         raise NotUnderstood("I can carry things, not move furniture")
     if target is None and clause.vague() is False and source is None:
-        need(None, "Where shall I go?")
+        need(clause.verb in _ONWARD, "Where shall I go?")
     if target is None or source is not None:
         raise Misfit("I need to know where to go to")
     slots.done()

@@ -82,6 +82,8 @@ def _after_description(phrase: NounPhrase, place: Locative, scope: Scope) -> Loc
     """
     last = place.other or place.of
     surface = last.places[-1] if last.places else None
+    if phrase.noun == "pronoun":
+        return place  # put it next to the vase on the shelf: which one is known
     if surface is None or not surface.of.is_spot or place.how not in _BESIDE:
         return place
     name = phrase.name("object")

@@ -85,6 +85,11 @@ _OPENING_SUBJECTS = lexicon.words(
 """These begin a clause where a verb of it follows."""
 _REFUSING = lexicon.words("not don't dont never")
 _WHITHER = lexicon.words("to into onto from of off")
+_TURNING = lexicon.words("on off open closed shut left right up down")
+_AROUND_TURNS = _TURNING | lexicon.words(
+    "no sorry oh wait actually please then again i mean rather instead well ah so now and it back"
+)
+_SIGNS = str.maketrans(".;:!?…–—", "," * 8)
 _EDGES = " ,.;:!?-–—…"
 
 
@@ -194,8 +199,15 @@ def _says_when(text: str, span: Passed) -> bool:
 def _limits(text: str, span: Passed) -> bool:
     words = [word.raw.lower() for word in said(text[span.start : span.end])]
     heard = [word for word in words if word[0].isalnum()]
-    denied = not _REFUSING.isdisjoint(heard[:2]) or any(  # "but not before noon"
-        one == "not" and two in TIMES for one, two in pairwise(heard)
+    bare = any(  # no wait, don't
+        one in _REFUSING and not two[0].isalnum() for one, two in pairwise([*words, "."])
+    )
+    denied = (
+        bare
+        or not _REFUSING.isdisjoint(heard[:2])
+        or any(  # "but not before noon"
+            one == "not" and two in TIMES for one, two in pairwise(heard)
+        )
     )
     return denied or (bool(_LIMITS.intersection(words)) and not _POLITE.intersection(words))
 
@@ -235,7 +247,8 @@ def _harms(text: str, span: Passed, index: NameIndex) -> dict[str, float]:
         "which": (NEVER if first in _RELATIVE or len(heard) < _TALK else CERTAIN) if which else 0.0,
         "when": NEVER if short and not _WHEN.isdisjoint(heard) else 0.0,  # "tomorrow at dawn"
         "how": NEVER if short and first in _HOW else 0.0,
-        "order": NEVER if _is_terse(heard) or _orders(heard) or _contrasts(heard) else 0.0,
+        "order": NEVER if any(is_order(heard) for is_order in _ORDERS) or _turns(words) else 0.0,
+        "corrects": NEVER if _corrects(heard, index) else 0.0,
         "told": NEVER if goes_on and words[-1] in _TELLING else 0.0,  # "I already put it there"
         "event": NEVER if f"{' '.join(heard)} ".startswith(_EVENTS) else 0.0,
         "grave": NEVER if _picks_out(heard, short=short) else 0.0,
@@ -257,6 +270,24 @@ def _orders(heard: list[str]) -> bool:
         and after in _ONTO
         and (bool(verbs_at([verb], 0)) or is_unheard_verb(verb))
         for n, (verb, after) in enumerate(pairwise(heard))
+    )
+
+
+def _corrects(heard: list[str], index: NameIndex) -> bool:
+    """Whether it may say what is meant instead: "I mean the radio", "or rather, the other bin"."""
+    marked = heard[:2] in (["i", "mean"], ["i", "meant"], ["or", "rather"], ["no", "wait"])
+    marked = marked or heard[0] in ("no", "rather", "correction")
+    return marked and any(index.match(heard, at) for at in range(1, min(len(heard), _SHORT)))
+
+
+def _turns(words: list[str]) -> bool:
+    """Whether a clause of it is nothing but "off", "on" or "open": what was asked, turned over."""
+    clauses = [part.split() for part in " ".join(words).translate(_SIGNS).split(",")]
+    return any(
+        len(clause) < _SHORT
+        and not _TURNING.isdisjoint(clause)
+        and _AROUND_TURNS.issuperset(clause)
+        for clause in clauses
     )
 
 
@@ -287,6 +318,9 @@ def _is_terse(heard: list[str]) -> bool:
     telling = [word for word in heard if word not in lexicon.FUNCTION_WORDS]
     alone = len(telling) == 1 and is_english(telling[0]) and telling[0] not in _ASIDES
     return alone and heard[0] not in _SUBJECTS
+
+
+_ORDERS = (_is_terse, _orders, _contrasts)
 
 
 def _left(text: str, spans: list[Passed], index: NameIndex) -> Remainder:

@@ -9,6 +9,7 @@ import re
 
 from intents.english.clauses.openings import skip_openings
 from intents.english.clauses.told import told_end
+from intents.english.clauses.wishes import WISHES
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.phrase import is_content
 from intents.english.phrases.referents import to_object
@@ -84,13 +85,21 @@ def told(sentence: Sentence, at: int) -> Found | None:
     end = told_end(sentence.text, at) or _cited(sentence.text, at)
     if sentence.text.word(at) == "before" and tells_when(sentence.text, at):
         end = _clause_end(sentence.text, at, links=False)  # now is before then
-    if end is None or end == at:
+    if end is None or end == at or _is_wish(sentence.text, at):
         return None
     if sentence.text.word(at) == QUOTE:
         _mention_cited(sentence, at)
     sentence.scope.unknown = _unknown_thing(sentence.text, at, end)
     _mention(sentence, at, end, described=True)
     return [], end
+
+
+def _is_wish(text: Text, at: int) -> bool:
+    """*I want the cups* ...; *there are two cups* ...: no mere remark, though it may be unclear."""
+    there = text.word(at) == "there" and text.word(at + 1) in ("is", "are")
+    start = at + 2 if there else text.phrase_end(WISHES, at)
+    wanted = noun_phrase(text, start) if start else None
+    return wanted is not None and bool(wanted.name("object", "category"))
 
 
 def warned(sentence: Sentence, at: int) -> Found | None:

@@ -12,6 +12,7 @@ from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.phrase import Locative
 from intents.english.phrases.referents import to_object, to_place
 from intents.english.reading import Found, Sentence
+from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import base_form, verbs_at
@@ -81,8 +82,10 @@ def _leaves_out(text: Text, at: int) -> bool:
 def out_of(sentence: Sentence, at: int) -> Found | None:
     """Of *all the cups on the table, bring me the largest one*."""
     text = sentence.text
-    phrase = noun_phrase(text, at + 1) if text.word(at) in ("of", "among") else None
-    if phrase is None or text.word(phrase.end) != COMMA:
+    first = text.phrase_end(_AMONG, at)
+    phrase = noun_phrase(text, _within(text, first)) if first else None
+    grouped = phrase is not None and first is not None and phrase.start > first
+    if phrase is None or not (grouped or text.word(phrase.end) == COMMA):
         return None
     start = skip_openings(text, phrase.end)
     if phrase.is_person or not verbs_at(text.words, start):
@@ -91,6 +94,16 @@ def out_of(sentence: Sentence, at: int) -> Found | None:
     sentence.scope.mention(among)
     goals, end = read_verb(sentence, start)
     return [_one_of(goal, among) for goal in goals], end
+
+
+_AMONG = lexicon.phrases("of,among,out of,from,from among")
+_GROUPS = lexicon.words("row pile stack set bunch group collection heap line lot")
+
+
+def _within(text: Text, at: int) -> int:
+    """Of *the row of* cups: where what it is a row of begins."""
+    group = at + (text.word(at) in lexicon.DETERMINERS)
+    return group + 2 if text.word(group) in _GROUPS and text.word(group + 1) == "of" else at
 
 
 def _one_of(goal: Goal, among: ObjectQuery) -> Goal:

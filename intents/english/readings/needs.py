@@ -24,7 +24,7 @@ from intents.goals import Answer, Bring, GoTo, Guide
 _LOST = lexicon.phrases(
     "i lost,i have lost,i misplaced,i have misplaced,i can not find,i could not find,"
     "can not find,could not find,i do not know where,i have no idea where,i do not find,"
-    "i am missing,we can not find"
+    "i am missing,we can not find,i can not see,we can not see,can not see,i do not see"
 )
 _GETS = lexicon.phrases("gets,gets to have,receives")
 """The same where it goes on from an order: "the pen to Ada, and Leo *gets* the cup"."""

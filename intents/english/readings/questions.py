@@ -6,7 +6,7 @@ from intents.english.clauses import questions as syntax
 from intents.english.clauses import self_talk
 from intents.english.phrases.complements import ends_clause
 from intents.english.phrases.noun_phrases import noun_phrase
-from intents.english.phrases.referents import ME, sought, to_object
+from intents.english.phrases.referents import ME, is_person, sought, to_object, to_person
 from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
 from intents.goals import Count, Find, ObjectQuery, Tell
@@ -107,10 +107,13 @@ def _is_there(sentence: Sentence, at: int) -> Found | None:
     """See whether *the bottle is there*: at the place spoken of."""
     text, scope = sentence.text, sentence.scope
     phrase = noun_phrase(text, at)
-    if phrase is None or scope.place is None or phrase.places:
+    if phrase is None or phrase.places or (scope.place is None and not phrase.is_person):
         return None
     if text.words[phrase.end : phrase.end + 2] not in (["is", "there"], ["are", "there"]):
         return None
+    if is_person(phrase, scope):
+        someone = to_person(phrase, scope)
+        return [Find(person=replace(someone, at=scope.place))], phrase.end + 2
     there = to_object(phrase, scope)
     return [Find(object=replace(there, at=scope.place))], phrase.end + 2
 

@@ -49,9 +49,10 @@ def left_somewhere(sentence: Sentence, at: int) -> Found | None:
 
 
 def found_there(sentence: Sentence, at: int) -> Found | None:
-    """*You will find my comb on the bench*; bring it to me: it is told where that is."""
+    """*You will find my comb on the bench*; *see my comb on the bench?* Bring it to me."""
     text = sentence.text
     told = text.word(at) in ("find", "see") and text.word(at - 2) in ("you", "should")
+    told = told or (text.word(at) == "see" and text.word(at - 1) in (COMMA, FULL_STOP))
     phrase = noun_phrase(text, at + 1) if told else None
     if phrase is None or not phrase.name("object", "category") or not phrase.places:
         return None

@@ -10,9 +10,11 @@ before the interruption, what it is repaired with behind it. What is taken back 
 
 import re
 from collections.abc import Sequence
+from itertools import pairwise
 
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, Token
+from intents.english.words.names import NameIndex
 from intents.english.words.verbs import FIRST_WORDS, base_form
 
 _ARTICLES = lexicon.words("the a an my your our")
@@ -49,14 +51,24 @@ _BEFORE_SIDES = lexicon.words("the to on at your my of far all a")
 """Before "right" these make it a side."""
 _BETWEEN_SIDES = lexicon.words(", and then to the")
 _DIRECTIONS = lexicon.words("left right up down ahead straight back forward forwards backwards")
+_ASSENTS = lexicon.words("yeah yep")
+_SIGNS = (COMMA, FULL_STOP)
+_TAKEN_UP = lexicon.words("it them him her there one")
+_RESTARTS = lexicon.phrases(
+    "i mean,i meant,no i mean,sorry i mean,no,no no,no wait,wait no,no sorry,sorry,or rather"
+)
+"""What is said before a clause is begun again."""
+_CLAUSES = lexicon.words("and then but so or if not")
+_MOST_LOST = 3
 _FAR = 8
 _LONGEST_ECHO = 4
 _STUTTERS = (3, 2)
 
 
-def fluent(tokens: list[Token]) -> list[Token]:
+def fluent(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens without false starts and without what is said while a word is sought."""
     kept = _denied_first(_as_one(_without_particles(tokens)))
+    kept = _named_anew(_restarted(kept, index), index)
     for at in range(len(kept) - 2, -1, -1):
         if at >= len(kept) - 2 or kept[at].text not in _ARTICLES:
             continue
@@ -86,8 +98,15 @@ def _without_particles(tokens: list[Token]) -> list[Token]:
         goes_on = after in lexicon.DETERMINERS or base_form(after) in FIRST_WORDS
         begun = words[max(0, at - _FAR) : at]
         told = not _STATES.isdisjoint(begun) and before not in _BEFORE_SIDES
-        if _HESITATION.fullmatch(token.text):
+        if _HESITATION.fullmatch(token.text) or _is_nowhere(words, at):
             continue
+        if token.text in _ASSENTS and kept and before not in _SIGNS and not _tells(words[:at]):
+            if after not in _CLAUSES | {COMMA, FULL_STOP}:
+                kept.append(Token(COMMA, ""))  # the cup yeah put it there
+            continue
+        again = token.text in _TAKEN_UP and words[at + 2 : at + 3] == [token.text]
+        if again and kept and kept[-1].text == COMMA and after in FIRST_WORDS:
+            continue  # the cups, them put them there
         if token.text == "like" and before in _BEGINS and goes_on:
             continue
         if token.text == "right" and after == COMMA and told and not is_side(words, at):
@@ -136,6 +155,92 @@ def unrepeated(tokens: list[Token]) -> list[Token]:
             if end is not None:
                 kept[at:end] = []
     return _unstuttered(kept)
+
+
+def _is_nowhere(words: list[str], at: int) -> bool:
+    """I cannot find my keys *anywhere*."""
+    if words[at] not in ("anywhere", "anymore"):
+        return False
+    return not {("not", "find"), ("not", "see")}.isdisjoint(pairwise(words[:at]))
+
+
+def _tells(begun: list[str]) -> bool:
+    """Whether words that are to be said stand behind these."""
+    return not _SAYS.isdisjoint(begun)
+
+
+def _restarted(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """Put the pin *I mean put the bin*: begun again with the same verb, or behind a lost word."""
+    at, words = 1, [token.text for token in tokens]
+    while at < len(tokens):
+        start = at + (words[at] == COMMA)
+        end = _phrase_end(words, start, _RESTARTS)
+        if end is None or _tells(words[:at]):
+            at += 1
+            continue
+        end += words[end : end + 1] == [COMMA]
+        begin = _begun_alike(words, at, end)
+        if begin is None and words[at] == "i":
+            begin = _lost_word(words, at, end, index)
+        if begin is None:
+            at += 1
+            continue
+        tokens = tokens[:begin] + tokens[end:]
+        at, words = begin + 1, [token.text for token in tokens]
+    return tokens
+
+
+def _named_anew(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """*The cup... no*, the bowl, bring it: what was named first, and nothing said of it."""
+    words = [token.text for token in tokens]
+    begin = int(words[:1] != [] and words[0] in lexicon.DETERMINERS)
+    named = index.match(words, begin) if begin < len(words) else None
+    if named is None or words[named.end : named.end + 1] not in ([COMMA], [FULL_STOP]):
+        return tokens
+    end = _phrase_end(words, named.end + 1, _RESTARTS) if named.of("object") else None
+    if end is None:
+        return tokens
+    end += words[end : end + 1] == [COMMA]
+    anew = end + (words[end : end + 1] != [] and words[end] in lexicon.DETERMINERS)
+    known = index.match(words, anew) if anew < len(words) else None
+    return tokens[end:] if known is not None and known.of("object") else tokens
+
+
+def _begun_alike(words: list[str], at: int, end: int) -> int | None:
+    """Where the clause begins that is begun again behind a marker with its verb."""
+    closes = next((n for n in range(end, len(words)) if words[n] in _SIGNS), len(words))
+    if words[end : end + 1] == [] or words[end] not in FIRST_WORDS:
+        return None
+    if not _TAKEN_UP.isdisjoint(words[end:closes]):
+        return None  # the cup, no, take *it* there
+    for n in range(at - 1, max(-1, at - _FAR), -1):
+        if words[n] == words[end]:
+            return n
+        if words[n] in _SIGNS or words[n] in _CLAUSES:
+            return None
+    return None
+
+
+def _lost_word(words: list[str], at: int, end: int, index: NameIndex) -> int | None:
+    """To *eh sha I mean* Aisha: where words begin that nobody knows, said in place of a name."""
+    named = end + (words[end : end + 1] != [] and words[end] in lexicon.DETERMINERS)
+    if named >= len(words) or index.match(words, named) is None:
+        return None
+    begin = at
+    while begin > 1 and at - begin < _MOST_LOST and _is_lost(words, begin - 1, index):
+        begin -= 1
+    before = words[begin - 1]
+    stays = before in _PREPOSITIONS or before in lexicon.DETERMINERS
+    return begin if begin < at and stays else None
+
+
+def _is_lost(words: list[str], at: int, index: NameIndex) -> bool:
+    word = words[at]
+    return (
+        word.isalpha()
+        and word not in lexicon.FUNCTION_WORDS
+        and not (word in index.words or word in FIRST_WORDS)
+    )
 
 
 def _resumed(tokens: list[Token], at: int) -> list[Token]:

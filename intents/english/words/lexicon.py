@@ -176,12 +176,17 @@ LOCATIVES.update({("somewhere", *phrase): how for phrase, how in LOCATIVES.items
 """Prepositions that say where something is; None says no more than "at"."""
 GOALWARDS = phrases(
     "to,into,onto,towards,toward,in to,on to,over to,back to,up to,down to,all the way to,until,"
-    "back into,back onto,back in,back on,over into,until he reaches,until she reaches,"
-    "until they reach,until he gets to,until she gets to,until they get to,until he arrives at,"
-    "until she arrives at,until they arrive at,until he is in,until she is in,until they are in,"
-    "until he is at,until she is at,until they are at,until you reach,until you get to,"
+    "back into,back onto,back in,back on,over into,"
     "round to,through to,across to,along to,on over to,out to,over into,down into,up into"
-)
+) | {
+    ("until", subject, *arrived.split())
+    for subjects, how in (
+        ("he she", "reaches,gets to,arrives at,comes to,is in,is at,is by,is near,is next to"),
+        ("you they", "reach,get to,arrive at,come to,are in,are at,are by,are near,are next to"),
+    )
+    for subject in subjects.split()
+    for arrived in how.split(",")
+}
 SOURCEWARDS = phrases(
     "from,out of,off,off of,from inside,from off,out from,from on,from in,from out of,from within,"
     "from the top of,from on top of,away from"

@@ -68,12 +68,24 @@ def repaired(tokens: list[Token]) -> list[Token]:
 
 
 def _marker_end(words: list[str], at: int) -> int | None:
-    """Where the marker ends that begins at a word or at the comma before it."""
+    """Where the markers end that begin at a word or at the comma before it: "wait, no"."""
+    pause = words[at - 1] in (COMMA, FULL_STOP) and words[at : at + 2] == ["wait", COMMA]
+    end = _one_marker_end(words, at + 2 * pause) if at + 2 * pause < len(words) else None
+    while end is not None and end < len(words):
+        further = _one_marker_end(words, end) if words[end - 1] == COMMA else None
+        if further is None:
+            break
+        end = further
+    return end
+
+
+def _one_marker_end(words: list[str], at: int) -> int | None:
+    """Where one marker ends."""
     start = at + (words[at] == COMMA)
     for size in range(_LONGEST_MARKER, 0, -1):
         phrase = tuple(words[start : start + size])
         if phrase in _MARKERS:
-            apart = start > at or (size > 1 or phrase[0] not in _APART)
+            apart = start > at or size > 1 or phrase[0] not in _APART or _begins(words, at)
             end = start + size
             return end + (words[end : end + 1] == [COMMA]) if apart else None
         end = start + size
@@ -99,9 +111,15 @@ def _anew(words: list[str], at: int) -> tuple[_Said, int] | None:
     return (found, end) if closes or (found.kind != "way" and following in _WAYS) else None
 
 
+def _begins(words: list[str], at: int) -> bool:
+    """Turn left. *No*, right: whether a marker begins a sentence of its own."""
+    return words[at - 1] in (COMMA, FULL_STOP) and words[at + 1 : at + 2] == [COMMA]
+
+
 def _begin(words: list[str], at: int) -> int:
     """Where the clause begins that a marker takes something of back."""
-    return max((n + 1 for n in range(at) if words[n] in (FULL_STOP, "then")), default=0)
+    ends = range(at - (words[at - 1] == FULL_STOP))
+    return max((n + 1 for n in ends if words[n] in (FULL_STOP, "then")), default=0)
 
 
 def _last(words: list[str], begin: int, end: int, anew: tuple[_Said, int]) -> _Said | None:

@@ -8,6 +8,8 @@ from typing import TypeVar
 from intents.english.words.courtesy import ADDRESSES, courtesy_end
 from intents.english.words.dialects import in_standard_words
 from intents.english.words.disfluency import fluent, unrepeated
+from intents.english.words.existentials import uninverted
+from intents.english.words.homophones import as_meant
 from intents.english.words.lexer import COMMA, DASHES, FULL_STOP, QUOTE, Token, tokenize
 from intents.english.words.lexicon import (
     ADVERBS,
@@ -114,12 +116,15 @@ class Text:
             t for t, b in zip(corrected, [Token("", ""), *corrected], strict=False)
             if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
         ]  # fmt: skip
+        corrected, alike = as_meant(corrected, self.index)
+        self.corrections += alike
         corrected = _wished(plain_quantities(repaired(corrected)))
         self.manners: list[Manner]
         corrected, self.manners = manners(corrected)
-        ordered = in_order(fluent(corrected), self.index)
+        ordered = in_order(fluent(corrected, self.index), self.index)
         plain = _unfinished(unrepeated(_without_fillers(ordered, self.index)))
-        self.tokens: list[Token] = _colloquial(in_standard_words(plain, self.index))
+        plain = _colloquial(in_standard_words(plain, self.index))
+        self.tokens: list[Token] = uninverted(plain)
         self.words: list[str] = [t.text for t in self.tokens]
         self._matches: dict[int, Match | None] = {}
         self._before_nouns = DETERMINERS | ALL | NUMBER_WORDS | {"no"} | set(self.index.colors)
@@ -177,7 +182,7 @@ class Text:
                 continue
             doubled = kept.pop() if sign and kept[-1].text in (COMMA, FULL_STOP) else token
             kept.append(doubled if doubled.text == FULL_STOP else token)
-        left, kept = copy(self), fluent(kept)
+        left, kept = copy(self), fluent(kept, self.index)
         left.tokens, left.words, left._matches = kept, [t.text for t in kept], {}
         return left
 

@@ -6,6 +6,7 @@ from intents.english.words.lexicon import Phrase
 SPELLINGS: dict[str, str] = {
     "go": (
         "go,go over,go on over,move,move over,navigate,walk,walk over,drive,come,"
+        "keep going,go on,carry on,"
         "come closer,come nearer,get closer,get closer to,get nearer,get nearer to,move closer,"
         "come over,enter,head,head over,proceed,travel,get to,get over,return,visit,"
         "reach,approach,advance,run,hurry,make your way,find your way,find way,"
