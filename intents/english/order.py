@@ -62,6 +62,7 @@ RULES = Rules(
         # Statements with a wish behind them, or a place to be noted: before a fronted thing and a
         # verb are seen in "I put my comb on the bench, go and get it".
         needs.lost,
+        needs.looked_for,
         remarks.left_somewhere,
         # "You will find it there" is to look for it only where nothing more is asked.
         remarks.found_there,
@@ -79,6 +80,7 @@ RULES = Rules(
         guiding.helped_there,
         guiding.shown_where,
         guiding.made_to_follow,
+        guiding.goes_oneself,
         needs.wanted_there,
         movements.out_of_the_way,
         time_clauses.until_told,

@@ -32,6 +32,8 @@ def _destination(slots: Slots) -> str | None:
         return to_place(goal.phrase, slots.scope)
     if slots.take_here():
         return OPERATOR
+    if slots.scope.place and (there := slots.take_there()):
+        return to_place(there.phrase, slots.scope)
     return OPERATOR if slots.direction("backward") else None
 
 

@@ -2,11 +2,15 @@
 
 from msgspec.structs import replace
 
+from intents.english.clauses.openings import goes_oneself_end, skip_openings
 from intents.english.phrases.complements import first_with, read_complements
 from intents.english.phrases.noun_phrases import noun_phrase
-from intents.english.phrases.referents import is_person, to_person, to_place
+from intents.english.phrases.referents import ME, is_person, to_person, to_place
 from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 from intents.goals import OPERATOR, Guide
 
 _HELPS = lexicon.words("help assist let")
@@ -15,6 +19,9 @@ _FINDS_WAY = lexicon.phrases(
     "make his way,make her way,make their way,come,travel,find way,get back,return"
 )
 _CAUSES = lexicon.words("have let make ask get tell")
+_LEADING = lexicon.words("there way lead guide escort accompany usher help show along")
+"""One of these is in an order to take along who has said where to."""
+_LINKS = (COMMA, FULL_STOP, "and", "so", "but", "to")
 
 
 def helped_there(sentence: Sentence, at: int) -> Found | None:
@@ -58,6 +65,34 @@ def shown_where(sentence: Sentence, at: int) -> Found | None:
         return None  # show me where the cup is: find it
     end = place.end + (text.word(place.end) in ("is", "are"))
     return [Guide(person=person, to=to_place(place, scope, objects=True))], end
+
+
+def goes_oneself(sentence: Sentence, at: int) -> Found | None:
+    """I would like to go through to the lounge; we have to get to the lab: to be taken there."""
+    text = sentence.text
+    going = goes_oneself_end(text, at)
+    complements, end = read_complements(text, going) if going else ([], at)
+    spots = [c for c in complements if c.phrases]
+    goal = spots[0] if len(spots) == 1 else None
+    into_room = goal is not None and goal.role == "at" and goal.phrase.name("room")
+    if goal is None or not (goal.role in ("to", "into") or into_room) or goal.phrase.is_person:
+        return None
+    place = to_place(goal.phrase, sentence.scope)
+    if text.word(end) == "to" and verbs_at(text.words, end + 1):
+        while end < len(text) and text.word(end) not in (COMMA, FULL_STOP):
+            end += 1  # ... to fetch the towels: who speaks does that
+        return [], end
+    if not _LEADING.intersection(text.words[end:]) and _orders(text, end):
+        sentence.scope.mention(place)
+        return [], end  # that is why something else is asked for
+    sentence.notes.wanted = True
+    return [Guide(person=ME, to=place)], end
+
+
+def _orders(text: Text, at: int) -> bool:
+    """Whether an order follows: "I have to go to the lab, *bring me my coat*"."""
+    links = (n for n in range(at, len(text)) if text.word(n) in _LINKS)
+    return any(verbs_at(text.words, skip_openings(text, n)) for n in links)
 
 
 def made_to_follow(sentence: Sentence, at: int) -> Found | None:

@@ -26,6 +26,13 @@ _LOST = lexicon.phrases(
     "can not find,could not find,i do not know where,i have no idea where,i do not find,"
     "i am missing,we can not find"
 )
+_LOOKS_FOR = lexicon.phrases(
+    "i am looking for,we are looking for,i am trying to find,we are trying to find,i am after,"
+    "i have come to see,i came to see,i am here to see,i am here for,i want to see,i need to see,"
+    "i would like to see,i should like to see,i want to find,i need to find,i would like to find,"
+    "i want to speak to,i need to speak to,i would like to speak to,i am searching for"
+)
+"""How one says whom one is looking for."""
 _GETS = lexicon.phrases("gets,gets to have,receives")
 """The same where it goes on from an order: "the pen to Ada, and Leo *gets* the cup"."""
 _NEEDS_TO_GO = lexicon.phrases(
@@ -64,6 +71,17 @@ def lost(sentence: Sentence, at: int) -> Found | None:
     end += text.word(end) in ("anywhere", "anymore")
     sentence.notes.wanted = True
     return [sought(phrase, sentence.scope)], end
+
+
+def looked_for(sentence: Sentence, at: int) -> Found | None:
+    """I am looking for a gentleman called Ravi: to look for him."""
+    text = sentence.text
+    start = text.phrase_end(_LOOKS_FOR, at)
+    phrase = noun_phrase(text, start) if start else None
+    if phrase is None or not phrase.is_person or phrase.noun == "operator":
+        return None
+    sentence.notes.wanted = True
+    return [sought(phrase, sentence.scope)], phrase.end
 
 
 def needed(sentence: Sentence, at: int) -> Found | None:

@@ -5,6 +5,7 @@ from collections.abc import Collection, Mapping
 from copy import copy
 from typing import TypeVar
 
+from intents.english.words.asking import plainly_asked
 from intents.english.words.courtesy import ADDRESSES, courtesy_end
 from intents.english.words.dialects import in_standard_words
 from intents.english.words.disfluency import fluent, unrepeated
@@ -26,6 +27,7 @@ from intents.english.words.precise import plain_quantities
 from intents.english.words.repairs import repaired
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
 from intents.english.words.texting import spelled_out
+from intents.english.words.titles import without_titles
 from intents.english.words.verbs import FIRST_WORDS, participle_base, verbs_at
 from intents.english.words.ways import in_order
 from intents.vocabulary import Vocabulary
@@ -128,6 +130,7 @@ class Text:
             if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
         ]  # fmt: skip
         corrected = _wished(plain_quantities(repaired(corrected)))
+        corrected = plainly_asked(without_titles(corrected, self.index), self.index)
         self.manners: list[Manner]
         corrected, self.manners = manners(corrected)
         ordered = in_order(fluent(corrected), self.index)
