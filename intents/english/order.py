@@ -147,6 +147,7 @@ RULES = Rules(
         afterthoughts.not_now,
         afterthoughts.from_there,
         afterthoughts.so_many,
+        afterthoughts.so_long,
         afterthoughts.on_condition,
         afterthoughts.before_or_after,
         afterthoughts.in_time,

@@ -268,7 +268,8 @@ def give(clause: Clause, scope: Scope) -> list[Goal]:
     """Give it to Ada; give me a plum off the tree (which is to bring)."""
     slots = Slots(clause, scope)
     _provided(slots)
-    to = _receiver(slots) or ME
+    wished = scope.last.to if isinstance(scope.last, Bring) and not slots.rest else None
+    to = _receiver(slots) or wished or ME  # she wants the ball. You give.
     if isinstance(to, str):
         return [_put_down(goal) for goal in bring(clause, scope)]
     bare = slots.peek("")

@@ -71,9 +71,10 @@ def in_pieces(sentence: Sentence, at: int) -> Found | None:
 
 def _leaves_out(text: Text, at: int) -> bool:
     """Whether a verb says nothing of what is handled: the scarf *take to Olga*."""
-    sense, first = verbs_at(text.words, at)[0]
-    if sense not in _HANDLES:
+    handled = [end for sense, end in verbs_at(text.words, at) if sense in _HANDLES]
+    if not handled:
         return False
+    first = handled[0]
     bare = [c for c in read_complements(text, first)[0] if c.phrases and c.role == ""]
     return all(c.phrase.is_person or c.phrase.noun in ("here", "there") for c in bare)
 

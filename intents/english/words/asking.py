@@ -1,6 +1,6 @@
 """Roundabout requests, turned into plain ones: what is asked for with all that is put around it.
 
-"Would it be a dreadful cheek to ask for the menu" (bring me the menu); "I should sleep so much better
+"Would it be a dreadful cheek to ask for the menu" (bring me the menu); "I should sleep much better
 if you would lock the door" (lock the door); "I would be ever so glad if the tray were back in the
 pantry" (the tray should be back in the pantry). They are told by their frame, a subject with a
 modal in front of what is asked for, and not by the words in it.

@@ -130,6 +130,7 @@ def courtesy_end(words: list[str], at: int, *, kept: list[str]) -> int | None:
         or _thanks(words, at)
         or _address(words, at, kept)
         or _insistence(words, at)
+        or _belief(words, at)
         or _small_word(words, at)
     )
 
@@ -301,18 +302,30 @@ def _insistence(words: list[str], at: int) -> int | None:
     return at + 2 if said else None
 
 
+def _belief(words: list[str], at: int) -> int | None:
+    """The menu, which *I rather think* is on the bar."""
+    if words[at] != "i" or _word(words, at - 1) not in (
+        "which",
+        "that",
+        "who",
+        "it",
+        "they",
+        COMMA,
+    ):
+        return None
+    end = at + 1
+    while _word(words, end) in _RATHER:
+        end += 1
+    believes = _word(words, end) in _BELIEVES and _word(words, end + 1) in _STATES
+    return end + 1 if believes else None
+
+
 def _small_word(words: list[str], at: int) -> int | None:
     """*Exactly* three; the *bloody* cup; so *like* can you."""
     if words[at] in _CURSES:
         return at + 1
     if _word(words, at - 1) in lexicon.WH and (end := _phrase_end(_EXPLETIVES, words, at)):
         return end
-    if words[at] == "i" and _word(words, at - 1) in ("which", "that", "who", "it", "they", COMMA):
-        believed = at + 1
-        while _word(words, believed) in _RATHER:
-            believed += 1
-        if _word(words, believed) in _BELIEVES and _word(words, believed + 1) in _STATES:
-            return believed + 1  # the menu, which *I rather think* is on the bar
     if words[at] in ("very", "really", "quite", "extra", "super", "ever") and (
         tuple(words[at + 1 : at + 2]) in lexicon.FILLERS
     ):

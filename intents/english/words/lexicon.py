@@ -278,7 +278,7 @@ _OPENINGS = phrases(
     "good afternoon to you,good day to you,will you not,pray,i pray you,do one thing,"
     "one thing you do,go on and,i beg you to,i beg of you to,i must ask you to,"
     "i have to ask you to,i shall ask you to,i am going to ask you to,please to,do,"
-    "i would have you,you do one thing,it is possible to,is possible to,"
+    "i would have you,you do one thing,it is possible to,is possible to,is possible,is it possible,"
     "it is possible that you,it is possible for you to,you are going to want to,you will want to,"
     "want to,be good enough to,be decent enough to,you are requested to,you are asked to,"
     "you are instructed to,you are ordered to,you are invited to,you are told to,"
