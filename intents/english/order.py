@@ -49,6 +49,7 @@ RULES = Rules(
     readings=(
         # Set wordings, matched from the first word of the clause to its last.
         questions.about_robot,
+        questions.posture_noted,
         # Clauses that hold clauses: what they hold is read with the whole list again. A condition
         # stands before "when you see Ada, nod", where the one would look at her and the other
         # first has to find her.

@@ -40,7 +40,8 @@ _PASTS = lexicon.words(
     "said told took went got left put came saw made gave found thought knew bought brought lost "
     "broke fell forgot kept ran sat stood sold sent spoke spent wrote ate drank slept felt held "
     "heard met paid read shut hurt cut let set rang began became began stole spilt spilled threw "
-    "died froze stuck tore woke won wore hid drove flew drew grew blew used meant"
+    "hung swung bent built chose caught taught rode rose shook swept died froze stuck tore woke "
+    "won wore hid drove flew drew grew blew used meant"
 )
 _SAME_IN_PAST = lexicon.words("put set let shut cut read hit spread cast hurt quit")
 """Verbs whose past is no other word: "I took the cup, put it down, ..." goes on telling."""

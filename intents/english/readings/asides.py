@@ -218,6 +218,7 @@ def _mention(sentence: Sentence, start: int, end: int, *, described: bool = Fals
         spot = match.of("place") if match else ""
         if spot and not sentence.before:
             sentence.scope.device = spot
+            sentence.scope.place = sentence.scope.place or spot
         if person:
             sentence.scope.mention(Person(name=person))
         elif thing and not sentence.before:
@@ -277,7 +278,8 @@ def somebody_else(text: Text) -> str:
         calls = at == 0 or text.word(0) in ("hey", "hi", "oi", "yo", "okay", "hello")
         after = skip_openings(text, end)
         commands = bool(verbs_at(text.words, after)) or after > end + 1
-        if end > at and calls and text.word(end) == COMMA and commands:
+        noted = end < len(text) and text.tokens[end].raw == ":"  # Ada: sitting or lying?
+        if end > at and calls and text.word(end) == COMMA and commands and not noted:
             return text.raw(at, end)
     last = next((n for n in range(len(text) - 1, 0, -1) if text.word(n - 1) == COMMA), len(text))
     match = text.name_at(last)
@@ -287,5 +289,6 @@ def somebody_else(text: Text) -> str:
         _names(text, last - 2, last - 1)[0].kind == "person"
     )  # fmt: skip
     taken_back = text.word(last - 2) in _TAKES_BACK  # to Leo, no, Mia
-    addressed = named and not person and not taken_back and verbs_at(text.words, 0)
+    noted = text.tokens[last - 1].raw == ":"  # report posture: Ada
+    addressed = named and not (person or taken_back or noted) and verbs_at(text.words, 0)
     return text.raw(last, len(text)) if addressed else ""

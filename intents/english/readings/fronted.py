@@ -71,8 +71,10 @@ def in_pieces(sentence: Sentence, at: int) -> Found | None:
 
 def _leaves_out(text: Text, at: int) -> bool:
     """Whether a verb says nothing of what is handled: the scarf *take to Olga*."""
-    handled = [end for sense, end in verbs_at(text.words, at) if sense in _HANDLES]
-    if not handled:
+    senses = verbs_at(text.words, at)
+    handled = [end for sense, end in senses if sense in _HANDLES]
+    apart = text.word(at - 1) in (COMMA, FULL_STOP)  # the scarf, rack: *move to the bar*
+    if not handled or (senses[0][0] not in _HANDLES and not apart):
         return False
     first = handled[0]
     bare = [c for c in read_complements(text, first)[0] if c.phrases and c.role == ""]

@@ -30,6 +30,7 @@ from intents.english.words.texting import spelled_out
 from intents.english.words.titles import without_titles
 from intents.english.words.verbs import FIRST_WORDS, participle_base, verbs_at
 from intents.english.words.ways import in_order
+from intents.english.words.whatever import all_there_is
 from intents.vocabulary import Vocabulary
 
 T = TypeVar("T")
@@ -130,6 +131,7 @@ class Text:
             if t.text != b.text or not t.text.isalpha() or t.text in _REPEATED
         ]  # fmt: skip
         corrected = _wished(plain_quantities(repaired(corrected)))
+        corrected = all_there_is(corrected)
         corrected = plainly_asked(without_titles(corrected, self.index), self.index)
         self.manners: list[Manner]
         corrected, self.manners = manners(corrected)

@@ -73,3 +73,30 @@ def test_a_letter_typed_twice_in_a_short_name_is_none():
     assert isinstance(outcome, Goals), outcome
     assert isinstance(plain, Goals), plain
     assert outcome.goals == plain.goals
+
+
+@pytest.mark.parametrize(
+    ("said", "plainly"),
+    [
+        (
+            "whatever pillows are left, onto the bar with them",
+            "put all the pillows on the bar",
+        ),
+        ("put whatever saucers there are on the bar", "put all the saucers on the bar"),
+        ("Hans: sitting or lying?", "is Hans sitting or lying?"),
+        ("report posture: Olga", "what is the posture of Olga?"),
+        (
+            "the cap always hung on the luggage rack, so put it there",
+            "put the cap on the luggage rack",
+        ),
+    ],
+)
+def test_whatever_there_is_and_what_is_noted_down(said: str, plainly: str):
+    one, other = heard(said), heard(plainly)
+    assert isinstance(one, Goals), one
+    assert isinstance(other, Goals), other
+    assert one.goals == other.goals
+
+
+def test_whom_a_colon_stands_behind_is_not_spoken_to():
+    assert not isinstance(heard("Hans, sit down"), Goals)
