@@ -78,10 +78,12 @@ RULES = Rules(
         # bring it, "take five seconds" is "take five" and "wait until I call" would end at "wait".
         light_verbs.light_verb,
         ends.resultative,
+        needs.aired,
         guiding.helped_there,
         guiding.shown_where,
         guiding.made_to_follow,
         guiding.goes_oneself,
+        guiding.way_asked,
         needs.wanted_there,
         movements.out_of_the_way,
         time_clauses.until_told,

@@ -63,6 +63,8 @@ def guide(clause: Clause, scope: Scope) -> list[Goal]:
     people = _someone(slots, "Whom shall I guide?", "with")
     slots.direction("forward", "around", "up", "down")
     slots.done()
+    if to is None and people == [ME] and isinstance(scope.last, Guide) and scope.last.person == ME:
+        to = scope.last.to  # which way is the lab, just take me
     verb = clause.verb.split()[0]
     if to is None and verb not in _GUIDES and (people == [ME] or verb in _NEED_PLACE):
         raise Misfit("that is not to guide anybody")

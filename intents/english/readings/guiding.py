@@ -7,6 +7,7 @@ from intents.english.phrases.complements import first_with, read_complements
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.referents import ME, is_person, to_person, to_place
 from intents.english.reading import Found, Sentence
+from intents.english.trouble import Offered
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
@@ -21,6 +22,16 @@ _FINDS_WAY = lexicon.phrases(
 _CAUSES = lexicon.words("have let make ask get tell")
 _LEADING = lexicon.words("there way lead guide escort accompany usher help show along")
 """One of these is in an order to take along who has said where to."""
+_WAY_ASKED = lexicon.phrases(
+    "which way is,which way 's,which way to,which is the way to,what is the way to,how do i get to,"
+    "how can i get to,how do we get to,how can we get to,what is the quickest way to,"
+    "which way do i go to,how do i find,how do i go to,where do i go for,tell me the way to"
+)
+"""How one asks for the way."""
+_TAKE_ME = (
+    ["take", "me"], ["take", "us"], ["lead", "me"], ["guide", "me"], ["show", "me"], ["bring", "me"],
+    ["walk", "me"], ["lead", "us"], ["show", "us"],
+)  # fmt: skip
 _LINKS = (COMMA, FULL_STOP, "and", "so", "but", "to")
 
 
@@ -87,6 +98,25 @@ def goes_oneself(sentence: Sentence, at: int) -> Found | None:
         return [], end  # that is why something else is asked for
     sentence.notes.wanted = True
     return [Guide(person=ME, to=place)], end
+
+
+def way_asked(sentence: Sentence, at: int) -> Found | None:
+    """Which way is the spa? How do I get to the spa? Take me: to be taken there, or offered.
+
+    Raises:
+        Offered: Nothing more is said.
+    """
+    text = sentence.text
+    start = text.phrase_end(_WAY_ASKED, at)
+    place = noun_phrase(text, start) if start else None
+    if place is None or not place.name("place", "room") or place.name("object", "person"):
+        return None
+    guide = Guide(person=ME, to=to_place(place, sentence.scope))
+    rest = text.words[place.end :]
+    if any(rest[n : n + 2] in _TAKE_ME for n in range(len(rest))):
+        sentence.notes.wanted = True
+        return [guide], place.end
+    raise Offered("I know the way", (guide,))
 
 
 def _orders(text: Text, at: int) -> bool:

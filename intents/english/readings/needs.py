@@ -17,9 +17,11 @@ from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrases.phrase import SOMETHING
 from intents.english.phrases.referents import ME, is_person, sought, to_object, to_person, to_place
 from intents.english.reading import Found, Sentence
+from intents.english.trouble import Unclear
 from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.verbs import verbs_at
-from intents.goals import Answer, Bring, GoTo, Guide
+from intents.goals import Answer, Bring, GoTo, Guide, Open
 
 _LOST = lexicon.phrases(
     "i lost,i have lost,i misplaced,i have misplaced,i can not find,i could not find,"
@@ -56,6 +58,11 @@ _WILL_DO = lexicon.phrases(
     "would suit me,will suit me,would go down well,would hit the spot,would be ideal"
 )
 """How it is said of a thing that one would like it."""
+_AIRS = lexicon.phrases(
+    "let some air in,let some fresh air in,let in some air,let in some fresh air,let the air in,"
+    "let fresh air in,let in fresh air,let a bit of air in,let a little air in,air the room,"
+    "get some air in,get some fresh air in,let in a bit of air"
+)
 _NICELY = lexicon.words("me us fine nicely just well too then perfectly also instead right now")
 
 
@@ -159,6 +166,27 @@ def will_do(sentence: Sentence, at: int) -> Found | None:
     if end is None or not ends_clause(text, end):
         return None
     return [Bring(object=to_object(phrase, sentence.scope), to=ME)], end
+
+
+def aired(sentence: Sentence, at: int) -> Found | None:
+    """Let some air in: to open a door or window, which may be named behind it.
+
+    Raises:
+        Unclear: It is not said which.
+    """
+    text = sentence.text
+    start = text.phrase_end(_AIRS, at)
+    if start is None:
+        return None
+    start += text.word(start) in ("through", "by", "at", "with", "from", COMMA, FULL_STOP)
+    spot = noun_phrase(text, start) if start < len(text) else None
+    said = spot.said.split()[-1:] if spot is not None else []
+    if spot is None or said not in (["door"], ["window"], ["doors"], ["windows"]):
+        raise Unclear("Which door or window shall I open?")
+    end = text.phrase_end(_WILL_DO, spot.end) or spot.end
+    while end > spot.end and text.word(end) in _NICELY:
+        end += 1
+    return [Open(what=to_place(spot, sentence.scope))], end
 
 
 def has_a_question(sentence: Sentence, at: int) -> Found | None:

@@ -3,7 +3,7 @@
 import pytest
 
 from intents.goals import Bring, Guide, ObjectQuery, Person
-from intents.outcomes import Goals
+from intents.outcomes import Goals, Question
 from tests.unit.intents.hotel_words import assert_means_the_same, heard
 
 THE_SAME = [
@@ -76,3 +76,17 @@ def test_where_one_has_to_go_is_only_told_beside_an_order():
     assert isinstance(outcome, Goals), outcome
     scarf = Bring(object=ObjectQuery(name="scarf"), to=Person(who="operator"))
     assert outcome.goals == (scarf,)
+
+
+def test_who_asks_for_the_way_is_offered_to_be_taken():
+    outcome = heard("how do I get to the spa?")
+    assert isinstance(outcome, Question), outcome
+    assert outcome.goals == (Guide(person=Person(who="operator"), to="spa"),)
+    assert_means_the_same("which way's the spa, or just take me", "guide me to the spa")
+
+
+def test_air_is_let_in_by_what_is_named():
+    assert_means_the_same("let some fresh air in, the window would do nicely", "open the window")
+    outcome = heard("it is stuffy, let some air in")
+    assert isinstance(outcome, Question), outcome
+    assert not outcome.goals
