@@ -29,8 +29,8 @@ _WAY_ASKED = lexicon.phrases(
 )
 """How one asks for the way."""
 _TAKE_ME = (
-    ["take", "me"], ["take", "us"], ["lead", "me"], ["guide", "me"], ["show", "me"], ["bring", "me"],
-    ["walk", "me"], ["lead", "us"], ["show", "us"],
+    ["take", "me"], ["take", "us"], ["lead", "me"], ["guide", "me"], ["show", "me"],
+    ["bring", "me"], ["walk", "me"], ["lead", "us"], ["show", "us"],
 )  # fmt: skip
 _LINKS = (COMMA, FULL_STOP, "and", "so", "but", "to")
 
