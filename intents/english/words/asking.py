@@ -23,6 +23,12 @@ _AVERSE = lexicon.words(
     "wrong awful horrible cry say wonder ask know what who where how why"
 )
 """Who would be so if it were done does not ask for it."""
+_GLAD = lexicon.words(
+    "pleased glad happy grateful obliged lovely nice great good wonderful delighted better easier "
+    "happier thankful perfect ideal kind relieved love like appreciate prefer splendid best "
+    "brilliant helpful marvellous fine comfort comfortable calmer tidier safer neater"
+)
+"""Who would be so wishes that it were; "we could play if it were there" is no wish."""
 _WILLING = lexicon.words("would could might can will")
 _SO = {
     ("were",): ("should", "be"), ("was",): ("should", "be"), ("could", "be"): ("should", "be"),
@@ -80,7 +86,8 @@ def _asked_if(tokens: list[Token], at: int, index: NameIndex) -> list[Token] | N
         verb = words[link + 3 : link + 4]
         asks = willing and verb and verb[0] in FIRST_WORDS
         return [*tokens[:at], *tokens[at + link + 3 :]] if asks else None
-    return _wished_so(tokens, at, at + link + 1)
+    glad = not _GLAD.isdisjoint(around)
+    return _wished_so(tokens, at, at + link + 1) if glad else None
 
 
 def _wished_so(tokens: list[Token], at: int, start: int) -> list[Token] | None:

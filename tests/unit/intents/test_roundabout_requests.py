@@ -44,6 +44,8 @@ def test_what_is_put_around_a_request_changes_nothing(said: str, plainly: str):
     [
         "I would be cross if you would bring me the menu",
         "I would not like it if you would close the door",
+        "we could drink if the teapot were on the bar",
+        "I would leave if the heater were off",
         "I would be sad if the teapot were on the bar",
         "I would be glad if the teapot were not on the bar",
     ],
