@@ -100,11 +100,3 @@ def test_whatever_there_is_and_what_is_noted_down(said: str, plainly: str):
 
 def test_whom_a_colon_stands_behind_is_not_spoken_to():
     assert not isinstance(heard("Hans, sit down"), Goals)
-
-
-def test_before_is_no_thing_of_hers():
-    assert_means_the_same(
-        "Olga, bless her, has asked for the menu, so please do take it across to her before she "
-        "has to ask again",
-        "Olga has asked for the menu, take it to her",
-    )
