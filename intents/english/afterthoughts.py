@@ -35,6 +35,7 @@ from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
     Answer,
+    Balance,
     Bring,
     Condition,
     Find,
@@ -275,6 +276,21 @@ def so_often(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     if end < len(text) and text.word(end) != FULL_STOP:
         return None
     return repeated(list(last), amount.value), end
+
+
+def so_long(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """Squat, *five seconds*; lean forward: *3 s*."""
+    amount = measure(sentence.text.words, at)
+    posed = last[-1] if last else None
+    if amount is None or amount.kind != "time" or not isinstance(posed, Balance):
+        return None
+    apart = sentence.text.word(at - 1) == COMMA and posed.duration_s is None
+    ends = amount.end >= len(sentence.text) or sentence.text.word(amount.end) in (COMMA, FULL_STOP)
+    return (
+        ([*last[:-1], replace(posed, duration_s=amount.value)], amount.end)
+        if apart and ends
+        else None
+    )
 
 
 _OF_ALL = lexicon.phrases(

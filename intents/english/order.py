@@ -49,6 +49,7 @@ RULES = Rules(
     readings=(
         # Set wordings, matched from the first word of the clause to its last.
         questions.about_robot,
+        questions.posture_noted,
         # Clauses that hold clauses: what they hold is read with the whole list again. A condition
         # stands before "when you see Ada, nod", where the one would look at her and the other
         # first has to find her.
@@ -62,6 +63,7 @@ RULES = Rules(
         # Statements with a wish behind them, or a place to be noted: before a fronted thing and a
         # verb are seen in "I put my comb on the bench, go and get it".
         needs.lost,
+        needs.looked_for,
         remarks.left_somewhere,
         # "You will find it there" is to look for it only where nothing more is asked.
         remarks.found_there,
@@ -76,9 +78,12 @@ RULES = Rules(
         # bring it, "take five seconds" is "take five" and "wait until I call" would end at "wait".
         light_verbs.light_verb,
         ends.resultative,
+        needs.aired,
         guiding.helped_there,
         guiding.shown_where,
         guiding.made_to_follow,
+        guiding.goes_oneself,
+        guiding.way_asked,
         needs.wanted_there,
         movements.out_of_the_way,
         time_clauses.until_told,
@@ -147,6 +152,7 @@ RULES = Rules(
         afterthoughts.not_now,
         afterthoughts.from_there,
         afterthoughts.so_many,
+        afterthoughts.so_long,
         afterthoughts.on_condition,
         afterthoughts.before_or_after,
         afterthoughts.in_time,

@@ -32,6 +32,15 @@ _URGING = lexicon.words("do only simply merely")
 _OPENING = lexicon.OPENERS | lexicon.LIGHT_VERBS | lexicon.PATROLS
 
 
+_OBLIGED = lexicon.words(
+    "want need have got must should would like wish love am hoping hope trying going supposed "
+    "really just ought badly urgently shall"
+)
+_GOING = lexicon.phrases(
+    "go,get,be taken,be brought,be led,be shown,be guided,find my way,find the way,get back,"
+    "go back,return,find our way,make my way,be escorted,be accompanied"
+)
+"""How one says that one is on one's way somewhere."""
 _OFF = lexicon.words("go come run hurry nip pop dash hop trot zip")
 """How one sets out to do something."""
 
@@ -81,6 +90,8 @@ def _opening_end(text: Text, at: int) -> int | None:
     """Where "could you" or "and then" ends, if it is no part of what is asked for."""
     if text.words[at + 1 : at + 3] == ["you", "see"] and _is_seen(text, at + 3):
         return None
+    if goes_oneself_end(text, at):
+        return None  # I want to go to the lab: to be taken there
     verb = verbs_at(text.words, at)
     end = max(connector_end(text, at) or 0, text.phrase_end(lexicon.OPENERS, at) or 0)
     if not end or about_robot(text, at) or (verb and verb[0][1] > end):
@@ -105,6 +116,17 @@ def _opening_end(text: Text, at: int) -> int | None:
     if otherwise_end(text, at) or (named and named.end >= end):
         return None
     return end
+
+
+def goes_oneself_end(text: Text, at: int) -> int | None:
+    """Where "I would like to go" ends: who says it is to get somewhere, and not the robot."""
+    if text.word(at) not in ("i", "we") or text.word(at + 1) not in _OBLIGED:
+        return None
+    end = at + 1
+    while text.word(end) in _OBLIGED | {"to"}:
+        end += 1
+    going = text.phrase_end(_GOING, end)
+    return going if going and not text.name_at(end) else None
 
 
 def _is_seen(text: Text, at: int) -> bool:

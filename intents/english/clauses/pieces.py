@@ -114,6 +114,8 @@ def _sorted_out(complements: list[Complement], pieces: Pieces, *, apart: bool) -
             continue
         if not one.phrases:
             return False
+        if things and one.role == "with" and one.phrase.noun == "pronoun":
+            continue  # the cups, into the sink *with them*
         if things and one.role == "" and (one.phrase.said,) in _OF_THEM and one.phrase.count:
             things.phrases[-1].count = one.phrase.count
         elif (

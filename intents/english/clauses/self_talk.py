@@ -19,6 +19,8 @@ _PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
                  r"(?: standing)?|what is my (?:position|location|place)"),
     ("remaining", r"(?:for )?how long have you (?:been|waited|stood|had)\b.*|since when .*"),
     ("holding", r"(?:in )?(?:which|what) hand\b.*"),
+    ("health", r"(?:the |your )?(?:battery|power|charge|motors?|sensors?|joints?|system|health)"
+               r"(?: (?:state|status|level|condition|charge|check|health|temperatures?))+"),
     ("remaining", r"(?:and )?how (?:much|many) (?:longer|more|time|seconds|minutes)\b"
                   r"(?: (?:time|seconds|minutes|is|are|do|will|does|it|that|this|you|need|take|be"
                   r"|left|remaining|to|go|still|until|the|job|task|have|there|for|are|done|ready|finished"

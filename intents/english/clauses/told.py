@@ -40,7 +40,8 @@ _PASTS = lexicon.words(
     "said told took went got left put came saw made gave found thought knew bought brought lost "
     "broke fell forgot kept ran sat stood sold sent spoke spent wrote ate drank slept felt held "
     "heard met paid read shut hurt cut let set rang began became began stole spilt spilled threw "
-    "died froze stuck tore woke won wore hid drove flew drew grew blew used meant"
+    "hung swung bent built chose caught taught rode rose shook swept died froze stuck tore woke "
+    "won wore hid drove flew drew grew blew used meant"
 )
 _SAME_IN_PAST = lexicon.words("put set let shut cut read hit spread cast hurt quit")
 """Verbs whose past is no other word: "I took the cup, put it down, ..." goes on telling."""
@@ -67,11 +68,18 @@ def told_end(text: Text, at: int) -> int | None:
     if cause is not None and (text.word(cause - 1) not in ("as", "since") or _verb_of(text, cause)):
         return _end(text, cause, past=False, being=True)
     verb = _verb_of(text, at)
-    if verb is None or _OBLIGES.intersection(text.words[verb : verb + 3]):
+    if verb is None or _obliges(text, at, verb):
         return None
     word = text.word(verb)
     past = word in _PASTS or word in ("was", "were", "had", "did") or word.endswith("ed")
     return _end(text, verb, past=past, being=word in ("is", "are", "am", "'s"))
+
+
+def _obliges(text: Text, at: int, verb: int) -> bool:
+    """It *should* be the red one; but: I *shall* be in the hall."""
+    says = text.words[verb : verb + 3]
+    mine = text.word(at) in ("i", "we") and says[:2] in (["shall", "be"], ["should", "be"])
+    return not mine and bool(_OBLIGES.intersection(says))
 
 
 def _verb_of(text: Text, at: int) -> int | None:
@@ -89,6 +97,9 @@ def _verb_of(text: Text, at: int) -> int | None:
     if not (word in _OWNERS or word in _SUBJECTS or text.name_at(at) or _is_subject(text, at)):
         return None
     named = word in _OWNERS or word in _SUBJECTS or text.name_at(at) is not None
+    who = text.name_at(at)
+    if who is not None and who.of("person") and _is_bare_verb(text, who.end):
+        return who.end
     for n in range(at + 1, min(at + (_REACH if named else 3), len(text))):
         if text.word(n) in (COMMA, FULL_STOP, QUOTE):
             return None
@@ -98,6 +109,14 @@ def _verb_of(text: Text, at: int) -> int | None:
         if _states(text, m) and not _owns(text, m):
             return m
     return None
+
+
+def _is_bare_verb(text: Text, at: int) -> bool:
+    """Leo *cry*, ...: as learners say it, where nothing else comes after it."""
+    word = text.word(at)
+    plain = word.isalpha() and word not in lexicon.FUNCTION_WORDS and not verbs_at(text.words, at)
+    ends = text.word(at + 1) in (COMMA, FULL_STOP) and text.name_at(at) is None
+    return plain and ends and is_english(f"{word}ing") and at + 1 < len(text)
 
 
 def _is_subject(text: Text, at: int) -> bool:

@@ -39,6 +39,9 @@ _ON_THE_WAY = words(
 _IT = words("it they that those")
 _PUT_AT = words("on onto in into next beside by near")
 _LIVES = words("lives live goes go belongs belong")
+_TOLD_WHERE = words("that which")
+"""With one of these it is told where a thing is: "I want the vase *that* is on the sill"."""
+_OVER = words("over up down out back across through round")
 _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "toss")
 
 
@@ -281,7 +284,8 @@ def give(clause: Clause, scope: Scope) -> list[Goal]:
     """Give it to Ada; give me a plum off the tree (which is to bring)."""
     slots = Slots(clause, scope)
     _provided(slots)
-    to = _receiver(slots) or ME
+    wished = scope.last.to if isinstance(scope.last, Bring) and not slots.rest else None
+    to = _receiver(slots) or wished or ME  # she wants the ball. You give.
     if isinstance(to, str):
         return [_put_down(goal) for goal in bring(clause, scope)]
     bare = slots.peek("")
@@ -310,10 +314,15 @@ def _is_to_stand(clause: Clause, slots: Slots) -> bool:
     where = bare.phrases[-1].places[-1:] if bare else []
     wishes = clause.verb.startswith(_WISHES) and not clause.with_role("for", "from")
     on = bool(where) and where[0].how in ("on", "in") and where[0].of.is_spot
+    told = bare and _TOLD_WHERE.intersection(clause.text.words[bare.phrase.start : clause.end])
     if where and where[0].how is None and where[0].of.name("place"):
-        return wishes  # I need a screwdriver at the workbench
-    definite = bare is not None and all(
-        one.determiner == "the" or (one.count and not one.determiner) for one in bare.phrases
+        return wishes and not told  # I need a screwdriver at the workbench
+    definite = (
+        bare is not None
+        and not told
+        and all(
+            one.determiner == "the" or (one.count and not one.determiner) for one in bare.phrases
+        )
     )
     room = on and where[0].of.name("room")
     if wishes and room and bare and bare.phrase.count == "all":
@@ -321,16 +330,33 @@ def _is_to_stand(clause: Clause, slots: Slots) -> bool:
     return wishes and on and definite and not room
 
 
+def _wanted_away(clause: Clause, slots: Slots) -> str | None:
+    """We need the ladder *over in the barn*: where it is to be, for one is there."""
+    bare = slots.peek("")
+    where = bare.phrases[-1].places[-1:] if bare and clause.verb.startswith(_WISHES) else []
+    spot = where[0].of if where and where[0].how in ("on", "in", None) else None
+    if bare is None or spot is None or not spot.name("room", "place"):
+        return None
+    said = clause.text.words[bare.phrases[-1].start : spot.start]
+    links = [word for word in said[-4:] if word in _OVER]
+    if not links or _TOLD_WHERE.intersection(said):
+        return None
+    bare.phrases[-1].places.pop()
+    return to_place(spot, slots.scope)
+
+
 def want(clause: Clause, scope: Scope) -> list[Goal]:
     """I want the leftmost object; can I have a drink."""
     slots = Slots(clause, scope)
     if _is_to_stand(clause, slots):
         return put(clause, scope)
+    away = _wanted_away(clause, slots)
     objects = slots.objects(handled=True)
     need(objects, "What shall I bring?")
-    slots.take_person("for")
+    if not away:
+        slots.take_person("for")
     slots.done()
-    return [_each(o, lambda q: Bring(object=q, to=ME)) for o in objects]
+    return [_each(o, lambda q: Bring(object=q, to=away or ME)) for o in objects]
 
 
 def put(clause: Clause, scope: Scope) -> list[Goal]:

@@ -32,6 +32,8 @@ def _destination(slots: Slots) -> str | None:
         return to_place(goal.phrase, slots.scope)
     if slots.take_here():
         return OPERATOR
+    if slots.scope.place and (there := slots.take_there()):
+        return to_place(there.phrase, slots.scope)
     return OPERATOR if slots.direction("backward") else None
 
 
@@ -61,6 +63,8 @@ def guide(clause: Clause, scope: Scope) -> list[Goal]:
     people = _someone(slots, "Whom shall I guide?", "with")
     slots.direction("forward", "around", "up", "down")
     slots.done()
+    if to is None and people == [ME] and isinstance(scope.last, Guide) and scope.last.person == ME:
+        to = scope.last.to  # which way is the lab, just take me
     verb = clause.verb.split()[0]
     if to is None and verb not in _GUIDES and (people == [ME] or verb in _NEED_PLACE):
         raise Misfit("that is not to guide anybody")

@@ -36,6 +36,11 @@ class Slots:
         here = (c for c in self.rest if c.phrases and c.phrase.noun == "here")
         return self._taken(next(here, None))
 
+    def take_there(self) -> Complement | None:
+        """To the place spoken of: "take me there"."""
+        there = (c for c in self.rest if c.phrases and c.role == "" and c.phrase.noun == "there")
+        return self._taken(next(there, None))
+
     def take_person(self, *roles: str) -> Person | None:
         """The first complement with one of these roles that is a person."""
         said = (c for c in self.rest if c.phrases and c.role in roles)

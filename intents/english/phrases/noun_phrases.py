@@ -48,6 +48,14 @@ _LYING_AROUND = lexicon.words(
 )
 
 
+_WHERE_IT_BELONGS = lexicon.phrases(
+    "where it belongs,where they belong,where it lives,where they live,where it goes,where they go,"
+    "where it should be,where they should be,where it ought to be,where it usually is,"
+    "where it usually stands,where it always is,where it is supposed to be,where it normally lives"
+)
+"""What of a place that is named says only that it is the right one."""
+
+
 def noun_phrase(text: Text, start: int) -> NounPhrase | None:
     """The noun phrase that begins at a word, as long as it goes."""
     partly = part_of(text, start)
@@ -151,6 +159,9 @@ def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
         follows = text.word(end + 1) in DETERMINERS | {"to", "into"} if end else False
         return end and end + (text.word(end) == COMMA and follows)
     spot = phrase.is_spot
+    home = text.phrase_end(_WHERE_IT_BELONGS, at) if spot and phrase.names else None
+    if home:
+        return home
     reduced = None if spot or phrase.noun == "pronoun" else text.phrase_end(_REDUCED, at)
     reduced = reduced or (None if spot or phrase.is_person else _left_there(text, at))
     if reduced:

@@ -126,7 +126,7 @@ _NO_NOUN = (
                     "stuck propped stashed stowed sprawled scattered strewn "
                     "gets wants asked ordered requested requires fancies asks gone called alone "
                     "moved brought lie required needed wanted wanting needing "
-                    "know too went using instead rather except excluding apart")
+                    "know too went using instead rather except excluding apart plus")
 )  # fmt: skip
 
 

@@ -21,7 +21,7 @@ from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE, tokenize
 from intents.english.words.measures import NUMBER_WORDS
 from intents.english.words.names import Name
 from intents.english.words.text import Text
-from intents.english.words.verbs import verbs_at
+from intents.english.words.verbs import base_form, verbs_at
 from intents.goals import ObjectQuery, Person
 
 _WARNS = lexicon.phrases(
@@ -35,7 +35,7 @@ _WARNS = lexicon.phrases(
 _FORBIDS = lexicon.phrases(
     "forget,forget about,ignore,skip,do not,never,avoid,no,not,without,but not,and not,only not,"
     "do not you,do not ever,pay no attention to,take no notice of,pay no heed to,never mind about,"
-    "leave alone,under no circumstances,on no account,in no case"
+    "rather than,instead of,leave alone,under no circumstances,on no account,in no case"
 )
 _RELEASES = lexicon.phrases(
     "need not,you need not,do not need to,you do not need to,do not have to,you do not have to,"
@@ -68,6 +68,7 @@ _MOTIONS = lexicon.words(
 _SPOTS = lexicon.words("on in at by with from to under onto into")
 """Where no name follows one of these, it is told how not to do it: "not on the middle one"."""
 
+_HANDED = lexicon.words("me us him her them it this that everyone")
 _LEFT = lexicon.words("left dropped forgot forgotten there found bought brought lost delivered put")
 """With one of these in it a statement may tell of a thing for the first time."""
 
@@ -158,6 +159,8 @@ def forbidden(sentence: Sentence, at: int) -> Found | None:
     if start is None or start >= len(text):
         return None
     end = _clause_end(text, start, links=away is not None and text.word(at) != "do")
+    if text.word(start - 1) in ("than", "of"):
+        end = _before_order(text, start, end)
     said = text.words[at:end]
     if end == start or (text.word(at) == "no" and not is_content(text, start)):
         return None
@@ -167,6 +170,16 @@ def forbidden(sentence: Sentence, at: int) -> Found | None:
         found = Forbidden(text.raw(at, end), names, away is not None, _how(text, start, end, names))
         sentence.notes.forbidden.append(found)
     return [], end
+
+
+def _before_order(text: Text, start: int, end: int) -> int:
+    """Rather than calling to her *give her a wave*: where what is done instead begins."""
+    for n in range(start + 2, end):
+        bare = bool(verbs_at(text.words, n)) and base_form(text.word(n)) == text.word(n)
+        handed = text.word(n + 1) in lexicon.DETERMINERS | _HANDED
+        if bare and handed and text.word(n - 1) not in lexicon.FUNCTION_WORDS - _HANDED:
+            return n
+    return end
 
 
 def _how(text: Text, start: int, end: int, names: tuple[Name, ...]) -> bool:
@@ -214,6 +227,7 @@ def _mention(sentence: Sentence, start: int, end: int, *, described: bool = Fals
         spot = match.of("place") if match else ""
         if spot and not sentence.before:
             sentence.scope.device = spot
+            sentence.scope.place = sentence.scope.place or spot
         if person:
             sentence.scope.mention(Person(name=person))
         elif thing and not sentence.before:
@@ -273,7 +287,8 @@ def somebody_else(text: Text) -> str:
         calls = at == 0 or text.word(0) in ("hey", "hi", "oi", "yo", "okay", "hello")
         after = skip_openings(text, end)
         commands = bool(verbs_at(text.words, after)) or after > end + 1
-        if end > at and calls and text.word(end) == COMMA and commands:
+        noted = end < len(text) and text.tokens[end].raw == ":"  # Ada: sitting or lying?
+        if end > at and calls and text.word(end) == COMMA and commands and not noted:
             return text.raw(at, end)
     last = next((n for n in range(len(text) - 1, 0, -1) if text.word(n - 1) == COMMA), len(text))
     match = text.name_at(last)
@@ -283,5 +298,6 @@ def somebody_else(text: Text) -> str:
         _names(text, last - 2, last - 1)[0].kind == "person"
     )  # fmt: skip
     taken_back = text.word(last - 2) in _TAKES_BACK  # to Leo, no, Mia
-    addressed = named and not person and not taken_back and verbs_at(text.words, 0)
+    noted = text.tokens[last - 1].raw == ":"  # report posture: Ada
+    addressed = named and not (person or taken_back or noted) and verbs_at(text.words, 0)
     return text.raw(last, len(text)) if addressed else ""

@@ -49,7 +49,8 @@ def fronted(sentence: Sentence, at: int) -> Found | None:
         if complement.role == "":
             for phrase in complement.phrases:
                 mention_phrase(phrase, scope)
-    things = [first] if first.role == "" and _leaves_out(text, after) else []
+    apart = text.word(end) in (COMMA, FULL_STOP)
+    things = [first] if first.role == "" and _leaves_out(text, after, apart=apart) else []
     return read_verb(sentence, after, [*things, *(c for c in complements if c.role)])
 
 
@@ -66,15 +67,20 @@ def in_pieces(sentence: Sentence, at: int) -> Found | None:
     thing = pieces.things.phrase
     thing.places += [Locative(c.how, c.phrase) for c in pieces.said]
     mention_phrase(thing, sentence.scope)
-    left_out = _leaves_out(text, after)
+    left_out = _leaves_out(text, after, apart=True)
     return read_verb(sentence, after, [pieces.things] if left_out else [])
 
 
-def _leaves_out(text: Text, at: int) -> bool:
-    """Whether a verb says nothing of what is handled: the scarf *take to Olga*."""
-    sense, first = verbs_at(text.words, at)[0]
-    if sense not in _HANDLES:
+def _leaves_out(text: Text, at: int, *, apart: bool) -> bool:
+    """Whether a verb says nothing of what is handled: the scarf *take to Olga*.
+
+    ``apart`` tells that a sign stands before it: the scarf, rack: *move to the bar*.
+    """
+    senses = verbs_at(text.words, at)
+    handled = [end for sense, end in senses if sense in _HANDLES]
+    if not handled or (senses[0][0] not in _HANDLES and not apart):
         return False
+    first = handled[0]
     bare = [c for c in read_complements(text, first)[0] if c.phrases and c.role == ""]
     return all(c.phrase.is_person or c.phrase.noun in ("here", "there") for c in bare)
 

@@ -17,15 +17,24 @@ from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrases.phrase import SOMETHING
 from intents.english.phrases.referents import ME, is_person, sought, to_object, to_person, to_place
 from intents.english.reading import Found, Sentence
+from intents.english.trouble import Unclear
 from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.verbs import verbs_at
-from intents.goals import Answer, Bring, GoTo, Guide
+from intents.goals import Answer, Bring, GoTo, Guide, Open
 
 _LOST = lexicon.phrases(
     "i lost,i have lost,i misplaced,i have misplaced,i can not find,i could not find,"
     "can not find,could not find,i do not know where,i have no idea where,i do not find,"
     "i am missing,we can not find,i can not see,we can not see,can not see,i do not see"
 )
+_LOOKS_FOR = lexicon.phrases(
+    "i am looking for,we are looking for,i am trying to find,we are trying to find,i am after,"
+    "i have come to see,i came to see,i am here to see,i am here for,i want to see,i need to see,"
+    "i would like to see,i should like to see,i want to find,i need to find,i would like to find,"
+    "i want to speak to,i need to speak to,i would like to speak to,i am searching for"
+)
+"""How one says whom one is looking for."""
 _GETS = lexicon.phrases("gets,gets to have,receives")
 """The same where it goes on from an order: "the pen to Ada, and Leo *gets* the cup"."""
 _NEEDS_TO_GO = lexicon.phrases(
@@ -49,6 +58,11 @@ _WILL_DO = lexicon.phrases(
     "would suit me,will suit me,would go down well,would hit the spot,would be ideal"
 )
 """How it is said of a thing that one would like it."""
+_AIRS = lexicon.phrases(
+    "let some air in,let some fresh air in,let in some air,let in some fresh air,let the air in,"
+    "let fresh air in,let in fresh air,let a bit of air in,let a little air in,air the room,"
+    "get some air in,get some fresh air in,let in a bit of air"
+)
 _NICELY = lexicon.words("me us fine nicely just well too then perfectly also instead right now")
 
 
@@ -64,6 +78,17 @@ def lost(sentence: Sentence, at: int) -> Found | None:
     end += text.word(end) in ("anywhere", "anymore")
     sentence.notes.wanted = True
     return [sought(phrase, sentence.scope)], end
+
+
+def looked_for(sentence: Sentence, at: int) -> Found | None:
+    """I am looking for a gentleman called Ravi: to look for him."""
+    text = sentence.text
+    start = text.phrase_end(_LOOKS_FOR, at)
+    phrase = noun_phrase(text, start) if start else None
+    if phrase is None or not phrase.is_person or phrase.noun == "operator":
+        return None
+    sentence.notes.wanted = True
+    return [sought(phrase, sentence.scope)], phrase.end
 
 
 def needed(sentence: Sentence, at: int) -> Found | None:
@@ -141,6 +166,27 @@ def will_do(sentence: Sentence, at: int) -> Found | None:
     if end is None or not ends_clause(text, end):
         return None
     return [Bring(object=to_object(phrase, sentence.scope), to=ME)], end
+
+
+def aired(sentence: Sentence, at: int) -> Found | None:
+    """Let some air in: to open a door or window, which may be named behind it.
+
+    Raises:
+        Unclear: It is not said which.
+    """
+    text = sentence.text
+    start = text.phrase_end(_AIRS, at)
+    if start is None:
+        return None
+    start += text.word(start) in ("through", "by", "at", "with", "from", COMMA, FULL_STOP)
+    spot = noun_phrase(text, start) if start < len(text) else None
+    said = spot.said.split()[-1:] if spot is not None else []
+    if spot is None or said not in (["door"], ["window"], ["doors"], ["windows"]):
+        raise Unclear("Which door or window shall I open?")
+    end = text.phrase_end(_WILL_DO, spot.end) or spot.end
+    while end > spot.end and text.word(end) in _NICELY:
+        end += 1
+    return [Open(what=to_place(spot, sentence.scope))], end
 
 
 def has_a_question(sentence: Sentence, at: int) -> Found | None:

@@ -5,10 +5,11 @@ from msgspec.structs import replace
 from intents.english.clauses import questions as syntax
 from intents.english.clauses import self_talk
 from intents.english.phrases.complements import ends_clause
-from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrases.referents import ME, is_person, sought, to_object, to_person
 from intents.english.reading import Found, Sentence
 from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA
 from intents.goals import Count, Find, ObjectQuery, Tell
 
 _LOOKS = lexicon.phrases("look,see,check,go see,go and see,find out,have a look,go check")
@@ -19,6 +20,10 @@ _GOES = lexicon.phrases(
     "go and find out,find out,look and see"
 )
 """How one goes to see what was asked; nothing more is to be done."""
+_POSTURE_OF = lexicon.phrases(
+    "report posture,check posture,state posture,note posture,posture,report the posture,"
+    "report on posture,posture check,check the posture"
+)
 _INSIDE = frozenset(
     (*told.split(), *what.split())
     for told in ("", "tell me", "see", "look", "say", "let me know", "report", "check")
@@ -34,6 +39,30 @@ _SEEN = lexicon.phrases(
 def about_robot(sentence: Sentence, at: int) -> Found | None:
     """What are you holding? How are you?"""
     return self_talk.about_robot(sentence.text, at)
+
+
+def posture_noted(sentence: Sentence, at: int) -> Found | None:
+    """Patient on the couch: *sitting or lying*?; *report posture*: Ravi, on the sofa."""
+    text = sentence.text
+    start = text.phrase_end(_POSTURE_OF, at)
+    begin = at if start is None else start + (text.word(start) in (COMMA, "of", "for"))
+    phrase = noun_phrase(text, begin) if text.word(begin)[0].isalpha() else None
+    if phrase is None or not phrase.is_person:
+        return None
+    end = phrase.end
+    if start is None and text.word(end) != COMMA:
+        return None
+    if start is None:
+        one = text.lookup(lexicon.POSTURES, end + 1)
+        other = text.lookup(lexicon.POSTURES, one[1] + 1) if one else None
+        if one is None or other is None or text.word(one[1]) != "or":
+            return None
+        end = other[1]
+    elif text.word(end) == COMMA:
+        phrase.end = end + 1
+        read_postmodifiers(text, phrase)
+        end = phrase.end if phrase.end > end + 1 else end
+    return [Tell(person=to_person(phrase, sentence.scope), property="posture")], end
 
 
 def question(sentence: Sentence, at: int) -> Found | None:

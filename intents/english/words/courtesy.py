@@ -46,7 +46,10 @@ _FAMILIAR = lexicon.words(
     "love luv dear darling sweetheart honey hun mate pal buddy bro dude robot bot sir champ"
 )
 """What needs no comma before it at the end."""
-_ADDRESSED = lexicon.words("my me good old little dear you the clever")
+_ADDRESSED = lexicon.words("my me good old little dear you the clever young kind")
+_POLITELY_CALLED = lexicon.words("man lady fellow woman gentleman person people folks sir")
+"""What the robot may be called behind "young", "good" or "dear"."""
+_CALLED = ADDRESSES | _ADDRESSED | _POLITELY_CALLED
 _CURSES = lexicon.words(
     "bloody fucking fuckin damn damned goddamn freaking frigging effing flipping blasted ruddy "
     "goddamned sodding"
@@ -68,7 +71,10 @@ _TAILS = lexicon.phrases(
     "there is a dear,there is a love,innit,eh,yeah,yes,okay,ok,alright,all right,right,no,hey,huh,"
     "you hear,do you hear,got it,understood,if you please,and thanks,and thank you,and that is it,"
     "and that is all,that is all,that is it,for me please,would be great,would be lovely,"
-    "would be nice,will do,asap,too please,and no dawdling,and do not dawdle,or else,for once,"
+    "would be nice,will do,asap,too please,apparently,obviously,seriously,and not just anywhere,"
+    "not just anywhere,"
+    "and nowhere else,and not anywhere else,or somebody,or whatever,or something,or so,"
+    "and no dawdling,and do not dawdle,or else,for once,"
     "whatever,either way,for crying out loud,for goodness sake,for heaven 's sake,"
     "for god 's sake,lah,na,yaar,"
     "only please,de,ne,there 's a good chap"
@@ -101,6 +107,11 @@ _HEDGED = lexicon.words(
 _DUTIES = lexicon.words(
     "favour favor solid needful kindness turn service small big huge quick good"
 )
+_RATHER = lexicon.words("rather do really quite should would")
+_BELIEVES = lexicon.words(
+    "think believe suppose reckon imagine expect fancy guess understand gather"
+)
+_STATES = lexicon.words("is are was were should must lies stands")
 _KINDNESSES = lexicon.words("kindness goodness courtesy decency grace")
 _LONGEST = 20
 
@@ -120,6 +131,7 @@ def courtesy_end(words: list[str], at: int, *, kept: list[str]) -> int | None:
         or _thanks(words, at)
         or _address(words, at, kept)
         or _insistence(words, at)
+        or _belief(words, at)
         or _small_word(words, at)
     )
 
@@ -134,7 +146,12 @@ def _is_verb(words: list[str], at: int) -> bool:
 
 
 def _gracious(words: list[str], at: int) -> int | None:
-    """If it is not too much trouble; when you have got a sec."""
+    """If it is not too much trouble; when you have got a sec; *and only* if you are free."""
+    if words[at : at + 1] == ["and"] or words[at] == "only":
+        begun = at + (words[at] == "and")
+        begun += _word(words, begun) in ("only", "even")
+        linked = begun > at and _word(words, begun) in _IF and _word(words, begun - 1) != "and"
+        return _gracious(words, begun) if linked else None
     if words[at] not in _IF:
         return None
     if words[at + 1 : at + 3] == ["you", "are"] and _word(words, at + 3) in ("done", "finished"):
@@ -268,9 +285,10 @@ def _thanks(words: list[str], at: int) -> int | None:
 def _address(words: list[str], at: int, kept: list[str]) -> int | None:
     """Love, ...; ..., you clever robot."""
     end = at
-    while _word(words, end) in _ADDRESSED and _word(words, end + 1) in ADDRESSES | _ADDRESSED:
+    while _word(words, end) in _ADDRESSED and _word(words, end + 1) in _CALLED:
         end += 1
-    if _word(words, end) not in ADDRESSES:
+    called = end > at and _word(words, end) in _POLITELY_CALLED and words[end - 1] != "the"
+    if _word(words, end) not in ADDRESSES and not called:
         return None
     opens = (not kept or kept[-1] in _SIGNS) and _word(words, end + 1) == COMMA
     closes = bool(kept) and _word(words, end + 1) == FULL_STOP
@@ -283,6 +301,24 @@ def _insistence(words: list[str], at: int) -> int | None:
     """The lamp, *I say*."""
     said = at and words[at : at + 2] == ["i", "say"] and _word(words, at + 2) in _SIGNS
     return at + 2 if said else None
+
+
+def _belief(words: list[str], at: int) -> int | None:
+    """The menu, which *I rather think* is on the bar."""
+    if words[at] != "i" or _word(words, at - 1) not in (
+        "which",
+        "that",
+        "who",
+        "it",
+        "they",
+        COMMA,
+    ):
+        return None
+    end = at + 1
+    while _word(words, end) in _RATHER:
+        end += 1
+    believes = _word(words, end) in _BELIEVES and _word(words, end + 1) in _STATES
+    return end + 1 if believes else None
 
 
 def _small_word(words: list[str], at: int) -> int | None:

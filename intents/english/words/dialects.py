@@ -44,6 +44,10 @@ _PREPOSITIONS: dict[lexicon.Phrase, lexicon.Phrase] = {
 }  # fmt: skip
 _LONGEST = 3
 _OWNERS = {"me": ("my", _GIVES_ME), "them": ("those", _GIVES_THEM)}
+_THIRD = {"want": "wants", "need": "needs", "require": "requires", "ask": "asks"}
+_ASKED_WITH = lexicon.words("do does did can could will would let make if and or to help")
+"""Behind one of these a verb has no ending."""
+_HANDING = lexicon.words("bring give take fetch get hand carry")
 _ASK = lexicon.words("what where why how")
 _BEFORE_SUBJECTS = lexicon.words("are were have can could will do did should must")
 """What stands before its subject in a question."""
@@ -52,7 +56,7 @@ _SEEING = lexicon.words("see have find hold carry")
 
 def in_standard_words(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens with the words of the grammar in place of those of a dialect."""
-    tokens = _linked(_prepositions(_handled(tokens)))
+    tokens = _agreeing(_linked(_prepositions(_handled(tokens))), index)
     words = [t.text for t in tokens]
     for at, token in enumerate(tokens):
         owner, gives = _OWNERS.get(token.text, ("", _GIVES_ME))
@@ -82,6 +86,27 @@ def _linked(tokens: list[Token]) -> list[Token]:
         else token
         for token, after in zip(tokens, [*tokens[1:], Token("a", "")], strict=False)
     ]
+
+
+def _agreeing(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """She *want* it: wants; bring *for her* wheelchair: bring her the wheelchair."""
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 1, 0, -1):
+        somebody = words[at - 1] in ("she", "he", "it") or _ends_person(words, at, index)
+        asked = somebody and any(word in _ASKED_WITH for word in words[:at])
+        if words[at] in _THIRD and somebody and not asked:
+            tokens[at] = Token(_THIRD[words[at]], tokens[at].raw)
+        handing = at > 1 and words[at - 2] in _HANDING and words[at - 1] in ("for", "to")
+        match = index.match(words, at + 1) if handing and words[at] == "her" else None
+        if match and match.of("object") and match.end not in range(len(words)):
+            tokens[at - 1 : at + 1] = [Token("her", tokens[at].raw), Token("the", "")]
+    return tokens
+
+
+def _ends_person(words: list[str], at: int, index: NameIndex) -> bool:
+    """Whether somebody's name ends before a word."""
+    matches = (index.match(words, n) for n in range(max(0, at - 2), at))
+    return any(match and match.end == at and match.of("person") for match in matches)
 
 
 def _is_thing(words: list[str], at: int, index: NameIndex) -> bool:

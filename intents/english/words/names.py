@@ -1,5 +1,6 @@
 """The names of a vocabulary, found in text whatever the spelling, plural or synonym said."""
 
+from collections import Counter
 from collections.abc import Iterable
 from functools import lru_cache
 from typing import Literal, NamedTuple
@@ -9,7 +10,7 @@ from rapidfuzz import fuzz, process
 from intents.english.words.lexer import singular, tokenize
 from intents.english.words.lexicon import COLORS, SIZES
 from intents.english.words.measures import number
-from intents.english.words.synonyms import AKIN, SYNONYMS
+from intents.english.words.synonyms import AKIN, SHORT_WORDS, SYNONYMS
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
 
 Kind = Literal["object", "category", "place", "room", "person"]
@@ -56,6 +57,9 @@ def _likeness(said: str, name: str, *, score_cutoff: float | None = None) -> flo
     return 85.0 if part else fuzz.ratio(one, other)
 
 
+_SHORT_OR_LONG = SHORT_WORDS | {short: long for long, short in SHORT_WORDS.items()}
+_INITIALS = 2
+"""A name of more words is also called by the initials of all but its last."""
 _PART = 2
 """A part that is no longer than this, "of" or "a", tells nothing."""
 
@@ -234,7 +238,22 @@ def _aliases(vocabulary: Vocabulary) -> list[tuple[Name, str]]:
     for name, spelling in _spellings(vocabulary):
         if name.kind == "room" and spelling.endswith(" room"):
             pairs.append((name, spelling.removesuffix("room") + "area"))
-    return pairs
+    spellings = _spellings(vocabulary)
+    others = {(name, short) for name, spelling in spellings for short in _other_words(spelling)}
+    spoken = Counter(_key(_split(short)) for _, short in (*pairs, *others))
+    return pairs + [(n, short) for n, short in sorted(others) if spoken[_key(_split(short))] == 1]
+
+
+def _other_words(spelling: str) -> list[str]:
+    """A name in other words: bike pump, BP cuff (blood pressure cuff), cup red."""
+    words = _split(spelling)
+    short = [_SHORT_OR_LONG.get(word, word) for word in words]
+    found = [" ".join(short)] if short != words else []
+    if len(words) > _INITIALS and all(word.isalpha() for word in words):
+        found.append("".join(word[0] for word in words[:-1]) + " " + words[-1])
+    if len(words) == _INITIALS and words[0] in COLORS:
+        found.append(f"{words[1]} {words[0]}")
+    return found
 
 
 @lru_cache(maxsize=8)

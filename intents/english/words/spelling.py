@@ -47,6 +47,7 @@ CORE = lexicon.words(
 _MORE_VERBS = lexicon.words(
     "identify announce recognize inspect examine collect gather describe explain rotate describe "
     "approach accompany proceed retrieve transport carry offer serve inform notify speak point "
+    "chuck shove stash dump toss fling plonk plop shift "
     "drop release remove return enter visit fetch grasp lift lower raise hold throw"
 )
 _VERBS = sorted(w for w in FIRST_WORDS if len(w) > 3 and w in CORE | _MORE_VERBS)
@@ -98,6 +99,7 @@ class Speller:
 
     def __init__(self, index: NameIndex) -> None:
         self._names = sorted(w for w in index.words if len(w) > 2)
+        self._names_said = index.words
         self._known = index.words | GRAMMAR_WORDS
         self._grammar = sorted(CORE)
         self._corrected: dict[tuple[str, bool], list[str]] = {}
@@ -119,6 +121,9 @@ class Speller:
         swapped = _typing_slip(word)
         if swapped:
             return [swapped]
+        single = re.sub(r"(.)\1+$", r"\1", word)
+        if len(single) > 1 and single in self._names_said:
+            return [single]  # tvv
         verb = self._verb(word) if begins else None
         if verb:
             return [verb]

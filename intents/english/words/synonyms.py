@@ -94,6 +94,16 @@ SYNONYMS = tuple(
 )
 """Groups of names that mean the same where a world has just one of them."""
 
+SHORT_WORDS = {
+    "bicycle": "bike", "television": "tv", "telephone": "phone", "photograph": "photo",
+    "refrigerator": "fridge", "microphone": "mic", "laboratory": "lab", "gymnasium": "gym",
+    "examination": "exam", "vegetable": "veg", "magazine": "mag", "handkerchief": "hanky",
+    "chocolate": "choc", "motorcycle": "motorbike", "information": "info",
+    "moisturiser": "moisturizer", "sanitiser": "sanitizer", "tyre": "tire",
+    "aluminium": "aluminum", "colour": "color",
+}  # fmt: skip
+"""What a word of a name is called for short or elsewhere: the bicycle pump is the bike pump."""
+
 AKIN = tuple(
     frozenset(group.split(","))
     for group in (

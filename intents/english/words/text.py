@@ -5,6 +5,7 @@ from collections.abc import Collection, Mapping
 from copy import copy
 from typing import TypeVar
 
+from intents.english.words.asking import plainly_asked
 from intents.english.words.courtesy import ADDRESSES, courtesy_end
 from intents.english.words.dialects import in_standard_words
 from intents.english.words.disfluency import fluent, unrepeated
@@ -28,8 +29,10 @@ from intents.english.words.precise import plain_quantities
 from intents.english.words.repairs import repaired
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
 from intents.english.words.texting import spelled_out
-from intents.english.words.verbs import participle_base, verbs_at
+from intents.english.words.titles import without_titles
+from intents.english.words.verbs import FIRST_WORDS, participle_base, verbs_at
 from intents.english.words.ways import in_order
+from intents.english.words.whatever import all_there_is
 from intents.vocabulary import Vocabulary
 
 T = TypeVar("T")
@@ -66,6 +69,19 @@ _AFTER_LEFT = words("in on at to over and") | {COMMA, FULL_STOP}
 _POLITE = words("please thanks")
 _ONCE = words("once when after until before as")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
+_TELLING = words("say tell inform know announce remind shout whisper")
+_MESSAGE_BEGINS = words("that is are am was were has have will can 's 're")
+"""After a word for telling one of these, or "to" and a verb, is part of what is to be told."""
+_ASKS_BACK = words("me us what where who how which whether if why when")
+"""Who wants to know something tells nothing."""
+_OF_MESSAGE = phrases(
+    "now,right now,right away,at once,straight away,immediately,as soon as possible,asap,for now,"
+    "at the moment,at this moment,at present,for the moment,carefully,gently,quickly,slowly,safely,"
+    "fast,properly,neatly,nicely,tidily,possibly,perhaps,maybe,i think,i guess,basically,actually,"
+    "urgently,one by one,one at a time,in turn,as fast as possible,as quickly as possible,"
+    "if possible,when you can,if you can,if you like,if you want,this instant,without delay"
+)
+"""Fillers that say something where they stand in words that are passed on."""
 
 
 _PACE = re.compile(
@@ -119,6 +135,8 @@ class Text:
         corrected, alike = as_meant(corrected, self.index)
         self.corrections += alike
         corrected = _wished(plain_quantities(repaired(corrected)))
+        corrected = all_there_is(corrected)
+        corrected = plainly_asked(without_titles(corrected, self.index), self.index)
         self.manners: list[Manner]
         corrected, self.manners = manners(corrected)
         ordered = in_order(fluent(corrected, self.index), self.index)
@@ -230,7 +248,9 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
         end = max(end or 0, courtesy_end(words, at, kept=said) or 0) or None
         called = at and tokens[at - 1].raw in DASHES and words[at] in ADDRESSES  # in passing
         named = end is not None and any(index.match(words, n) for n in range(at, end))
-        if end is None or named or called or said[-1:] == ["say"]:
+        passed_on = end is not None and tuple(words[at:end]) in _OF_MESSAGE
+        passed_on = passed_on and _in_message(said, index)
+        if end is None or named or called or passed_on or said[-1:] == ["say"]:
             kept.append(tokens[at])
             at += 1
             continue
@@ -242,6 +262,20 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
     while kept and kept[-1].text in (COMMA, FULL_STOP):
         kept.pop()
     return kept
+
+
+def _in_message(said: list[str], index: NameIndex) -> bool:
+    """Whether what stands behind these words is still to be told: "tell Leo to eat *slowly*"."""
+    begins = message = False
+    for at, word in enumerate(said):
+        last = said[at - 1] if at else FULL_STOP
+        ordered = word in FIRST_WORDS and last in (COMMA, "and", "then")
+        if word == FULL_STOP or ordered or word in _ASKS_BACK:
+            begins = message = False
+        to_do = last == "to" and word not in DETERMINERS | FUNCTION_WORDS
+        message |= begins and (word in _MESSAGE_BEGINS or (to_do and not index.match(said, at)))
+        begins |= word in _TELLING
+    return message and said[-1] not in (COMMA, "and", "then")
 
 
 def _done_before(tokens: list[Token]) -> list[Token]:

@@ -143,7 +143,7 @@ def test_every_text_has_looks_and_none_raises(text: str) -> None:
 
 
 def test_what_is_in_doubt_is_asked_with_all_that_would_be_done() -> None:
-    said = "a rope, the long one, to Marit with it"
+    said = "a rope, the long one, and off to Marit with it"
     outcome = parse(said, LIGHTHOUSE)
     assert isinstance(outcome, Question), outcome
     assert outcome.kind == "confirmation"
