@@ -682,9 +682,8 @@ def test_a_cry_that_was_heard_by_mistake_costs_a_question(shell: Shell, cry: str
     talk.take(heard(kind="halted"))
     assert eventually(lambda: ear.replying)
     assert "Shall I go on with “squat for 2 seconds”?" in shell.out.text
-    talk.take(Spoken(kind="sentence", text="yes"))
-    shell.robot.wait()
-    assert shell.robot.executive.jobs[-1].state == "done"
+    talk.take(Spoken(kind="sentence", text="yes"))  # which is done beside
+    assert eventually(lambda: shell.robot.executive.jobs[-1].state == "done")
 
 
 def test_a_pause_that_is_said_waits_for_a_yes(shell: Shell):
