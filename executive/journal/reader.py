@@ -194,7 +194,8 @@ class Reader:
         if told.state == "running" and (not job.states or job.states[-1][1] == "waiting"):
             self._trees.begin(told.text)
         self._tell(job.states, (t_s, told.state), MOST_STATES)
-        if told.state == "running" and told.job != self._job:
+        refused = told.state == "failed" and self._is_over(self._job)  # before it ever ran
+        if (told.state == "running" or refused) and told.job != self._job:
             self._begin_task(t_s, told)
         if told.job == self._job:
             self.run.task.state = "" if told.state == "waiting" else told.state
@@ -202,6 +203,11 @@ class Reader:
                 self.run.task.reason = reason
             if told.state in OVER and self._only is not None:
                 self.run.task.took_s = round(t_s - self.run.task.began_s, 4)
+
+    def _is_over(self, number: int | None) -> bool:
+        """Whether nothing more comes of a job; of none, nothing does."""
+        job = self._jobs.get(number) if number is not None else None
+        return job is None or not job.states or job.states[-1][1] in OVER
 
     def _begin_task(self, t_s: float, told: _JobEvent) -> None:
         """Another job begins: what came before belongs to the last one."""

@@ -160,13 +160,15 @@ class RecordedJob(msgspec.Struct, kw_only=True, omit_defaults=True):
         """Of several jobs, the one that people mean without naming it weighs most.
 
         That is one that runs, or else one that was interrupted, the first begun: those beside it
-        only speak. If all is over it is the one that ended last, of those that ever began.
+        only speak. If all is over it is the one that ended last, of those that ever began, or
+        failed before they did.
         """
         states = [state for _, state in self.states]
         last_s, last = self.states[-1] if self.states else (0.0, "waiting")
         if last in ("running", "interrupted", "paused"):
             return (3 if last == "running" else 2, 0.0, -self.number)
-        return (1 if "running" in states and last != "waiting" else 0, last_s, self.number)
+        counts = last == "failed" or ("running" in states and last != "waiting")
+        return (1 if counts else 0, last_s, self.number)
 
 
 class Ending(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):

@@ -198,6 +198,25 @@ def test_of_several_jobs_the_newest_is_explained():
     assert "red cup" not in told.text
 
 
+@pytest.mark.parametrize("only", [None, 2])
+def test_a_job_that_failed_before_it_began_is_explained_once_nothing_else_is_done(only):
+    def state(number: int, text: str, told: str, **data: object) -> dict[str, object]:
+        return {"job": number, "text": text, "state": told, "urgent": False, **data}
+
+    pressed = {"code": "emergency_stop", "cause": "the operator pressed the emergency stop"}
+    begun = [(1.0, state(1, "walk", "running")), (2.0, state(2, "wave", "waiting"))]
+    refused = (3.0, state(2, "wave", "failed", **pressed))
+    reader = Reader(job=only)
+    for n, (t_s, data) in enumerate([*begun, (2.5, state(1, "walk", "done")), refused]):
+        reader.event(Event(n, t_s, "job", data))
+    text = why(reader.run).text
+    assert "Asked for: wave" in text and pressed["cause"] in text
+    reader = Reader()
+    for n, (t_s, data) in enumerate([*begun, refused]):
+        reader.event(Event(n, t_s, "job", data))
+    assert "Asked for: walk" in why(reader.run, live=True).text
+
+
 def test_what_was_asked_before_a_job_began_is_none_of_its_own():
     def state(number: int, text: str, told: str) -> dict[str, object]:
         return {"job": number, "text": text, "state": told, "urgent": False}
