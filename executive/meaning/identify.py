@@ -142,6 +142,12 @@ class Scene:
         """The name of the surface that a thing is believed to be on; empty if on none."""
         return next((entity.at for entity in self._entities if entity.id == info.id), "")
 
+    def holder_of(self, info: ObjectInfo) -> str:
+        """Who has a thing, as far as is known and nothing is done before; empty: nobody."""
+        if self._moves:
+            return ""
+        return next((entity.holder for entity in self._entities if entity.id == info.id), "")
+
     def take(self, object_id: str) -> None:
         """The goals so far have put this object into a hand.
 

@@ -37,9 +37,12 @@ def pick(goal: goals.Pick, scene: Scene) -> Part:
 def _pick_one(
     info: ObjectInfo, query: goals.ObjectQuery, scene: Scene, *, to: Place | None = None
 ) -> Part:
-    """Take one thing; `to` is where it will be put."""
-    scene.take(info.id)
+    """Take one thing; `to` is where it will be put. Raises CannotMean if somebody has it."""
     name = info.full_name
+    if holder := scene.holder_of(info):
+        cure = f"ask {holder} to put it down"
+        raise cannot("out_of_reach", f"{holder} has {name}", suggestion=cure)
+    scene.take(info.id)
     params = PickParams(object_id=info.id, for_place_id=to and to.id)
     pick = about(info, f"pick up {name}", params)
     if query.at is None:  # picking begins with looking for it everywhere

@@ -7,7 +7,7 @@ import math
 import msgspec
 import pytest
 
-from executive.blackboard import HELD, WORLD, Blackboard
+from executive.blackboard import GIVEN, HELD, WORLD, Blackboard
 from executive.meaning.request import Refused, Setting, Understood, meant, request
 from executive.meaning.robot_state import state_of
 from executive.skills.give import GiveParams
@@ -107,11 +107,15 @@ def parts(text: str, kind: type) -> list[Part]:
 
 
 def board(
-    *, at: tuple[float, float] = (0.0, 1.0), left: str = "", **things: tuple[float, float]
+    *,
+    at: tuple[float, float] = (0.0, 1.0),
+    left: str = "",
+    given: str = "",
+    **things: tuple[float, float],
 ) -> Blackboard:
     """What is believed: the robot at a point, things at points of the surface they are over.
 
-    `left` is in the left hand.
+    `left` is in the left hand; `given` was given to Mia.
     """
     blackboard = Blackboard()
     tracks = tuple(
@@ -123,6 +127,7 @@ def board(
     sense = blackboard.claim("sense")
     sense.set(WORLD, state)
     sense.set(HELD, {"left": left} if left else {})
+    sense.set(GIVEN, {given: "mia"} if given else {})
     return blackboard
 
 
@@ -378,6 +383,22 @@ def test_what_is_believed_to_be_there_already_is_left_there_and_told():
 @pytest.mark.parametrize("believed", [board(red=(0.2, 2.5)), board(left="red"), board()])
 def test_what_is_elsewhere_or_in_the_hand_is_put_without_a_question(believed):
     assert not [part for _, part in walk(put_where(believed)) if isinstance(part, Branch)]
+
+
+@pytest.mark.parametrize(
+    "goal",
+    [
+        goals.Pick(object=goals.ObjectQuery(name="red")),
+        goals.Place(object=goals.ObjectQuery(name="red"), on="table"),
+        goals.Bring(object=goals.ObjectQuery(name="red"), to=goals.Person(who="operator")),
+    ],
+)
+def test_what_somebody_has_is_not_taken_from_them(goal):
+    believed = board(given="red")
+    state = state_of(believed, WHERE.knowledge)
+    refused = meant("do it", (goal,), WHERE, state=state)
+    assert isinstance(refused, Refused)
+    assert (refused.reason, refused.suggestion) == ("mia has the red mug", "ask mia to put it down")
 
 
 # --- the end ------------------------------------------------------------------------------------
