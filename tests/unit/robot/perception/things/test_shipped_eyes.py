@@ -44,8 +44,8 @@ def test_most_things_are_found_and_placed(looked: list[Look]) -> None:
 def test_a_name_is_hardly_ever_wrong(eyes: Eyes, looked: list[Look]) -> None:
     some = within(looked, 2.5)
     at = counts(some, eyes, eyes.namer.sure)
-    assert at.right > 0.0
-    assert at.wrong <= 0.03
+    assert at.right > 0.1
+    assert at.wrong <= 0.02
 
 
 def test_a_picture_twice_is_seen_twice_the_same(eyes: Eyes, frames: list[Frame]) -> None:
