@@ -194,7 +194,7 @@ WRONG = [
     ("  - for_each: X\n    in: [red cup]\n    do: [say: x]\n", "'X' is no name"),
     ("  - for_each: x\n    in: [red cupp]\n    do: [say: x]\n", "did you mean 'red cup'"),
     ("  - go_to: {pose: {x_m: 99, y_m: 0}}\n", "outside this world"),
-    ("  - move 3 1\n", "(3, 1) is at the very edge of this world (x from -2.94 to 2.94 m"),
+    ("  - go to (3, 1)\n", "(3, 1) is at the very edge of this world (x from -2.94 to 2.94 m"),
     ("  - walk forward 15 m\n", "15 m from here is outside this world (it is 6 by 5 m)"),
     ("  - go_to: {pose: {x_m: .inf, y_m: 0}}\n", ":3:25: x_m: '.inf' where a number should be"),
     ("  - go_to: {pose: {x_m: 1e300, y_m: 0}}\n", "x_m: 1e300 where a number of less"),
