@@ -184,7 +184,8 @@ def test_what_is_asked_beside_a_choice_is_no_choice(shell: Shell):
 
 
 def test_what_is_urgent_is_what_is_under_way(shell: Shell):
-    begin(shell, "go to the cabinet", "now go to the counter")
+    begin(shell, "go to the cabinet")  # so that it is interrupted, and does not only wait
+    shell.line("now go to the counter")
     assert eventually(lambda: shell.robot.executive.jobs[0].text == "go to the counter")
     assert eventually(lambda: shell.robot.view.goal == "go to the counter")
     shell.line("resume")
