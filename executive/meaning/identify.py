@@ -140,13 +140,16 @@ class Scene:
 
     def believed_at(self, info: ObjectInfo) -> str:
         """The name of the surface that a thing is believed to be on; empty if on none."""
-        return next((entity.at for entity in self._entities if entity.id == info.id), "")
+        return self._entity(info).at
 
     def holder_of(self, info: ObjectInfo) -> str:
         """Who has a thing, as far as is known and nothing is done before; empty: nobody."""
-        if self._moves:
-            return ""
-        return next((entity.holder for entity in self._entities if entity.id == info.id), "")
+        return "" if self._moves else self._entity(info).holder
+
+    def _entity(self, info: ObjectInfo) -> Entity:
+        """What is believed of a thing; of one that nothing is believed of, what it is."""
+        found = (entity for entity in self._entities if entity.id == info.id)
+        return next(found, self.knowledge.entity(info))
 
     def take(self, object_id: str) -> None:
         """The goals so far have put this object into a hand.

@@ -100,7 +100,11 @@ class Steering:
         if path is None:
             return
         reader, writer = await asyncio.open_unix_connection(path, limit=MAX_ANSWER)
-        unheard, self._cries = await asyncio.open_unix_connection(path)
+        try:
+            unheard, self._cries = await asyncio.open_unix_connection(path)
+        except OSError:
+            writer.close()
+            raise
         emptying = asyncio.create_task(_empty(unheard, self._cries))
         self._writer = writer
         self._private = Path(path).parent

@@ -120,7 +120,10 @@ def _started(folder: Path, path: Path) -> subprocess.Popen[bytes]:
 
 
 def _finish(process: subprocess.Popen[bytes], path: Path) -> None:
-    """Let it write what is left, and the index; who does not want to wait leaves it to it."""
+    """Let it write what is left, and the index; who does not want to wait leaves it to it.
+
+    A signal within `PATIENCE_S` may be the wish that ended the run, passed on by the launcher.
+    """
     if process.stdin is not None:
         process.stdin.close()
     clock = WallClock()
@@ -130,9 +133,7 @@ def _finish(process: subprocess.Popen[bytes], path: Path) -> None:
             waited_s = clock.now_s() - begun_s
             if waited_s > FINISH_S:
                 process.kill()
-            elif (
-                ending.asked and waited_s > PATIENCE_S
-            ):  # before, it is the wish that ended the run
+            elif ending.asked and waited_s > PATIENCE_S:
                 say(f"The recording is finished in the background: {path}", err=True)
                 return
             clock.sleep_until(clock.now_s() + POLL_S)
