@@ -46,6 +46,8 @@ def refusal(text: str) -> Refused:
             "put the red cup on the table",
             ["pick up the red cup", "put the red cup on the table"],
         ),
+        ("pick up the cup that is not red", ["pick up the blue cup"]),
+        ("look at a cup that isn't on the table", ["look around", "look at the red cup"]),
         ("take the red cup from the table", ["find the red cup", "pick up the red cup"]),
         ("go to the kitchen and then squat", ["go to the kitchen", "squat for 3 s"]),
         (
