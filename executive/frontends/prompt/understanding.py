@@ -158,6 +158,8 @@ class Understanding:
                 self._dialogue.not_to_be_had()
             self._people.refuse(f"Not done: {understood.reason}", understood.suggestion)
             return None
+        if turn.reason:
+            self._people.out(f"  {turn.reason}")
         return understood
 
     def _tell_trouble(self) -> None:

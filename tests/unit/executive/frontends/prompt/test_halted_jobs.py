@@ -233,3 +233,9 @@ def test_what_is_answered_corrects_what_was_asked_about(shell: Shell):
     assert "Instead of “bring me the bottle”." in said
     assert "bring me the bottle" not in open_jobs(shell)
     assert "wave" in open_jobs(shell)
+
+
+def test_what_is_remarked_on_is_told_once(shell: Shell):
+    shell.line("nod quickly")
+    assert said[0] == "  I move at my own pace: “quickly” changes nothing."
+    assert sum("I move at my own pace" in one for one in said) == 1
