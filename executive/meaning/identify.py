@@ -93,6 +93,10 @@ class Scene:
         scene.spoken_of = ids[0]
         return scene
 
+    def is_settled(self, query: goals.ObjectQuery) -> bool:
+        """Whether it was looked which things a description means."""
+        return _bare(query) in self._settled
+
     def follow(self, other: Scene) -> None:
         """Go on from what another one has come to."""
         self.held, self.spoken_of = list(other.held), other.spoken_of
