@@ -81,7 +81,7 @@ class Terminal:
         prompting = threading.Thread(target=self._prompting, name="prompt", daemon=True)
         prompting.start()
         try:
-            while prompting.is_alive() and interrupts.pressed == before:
+            while prompting.is_alive() and interrupts.pressed == before and not interrupts.leaving:
                 prompting.join(REFRESH_S)
         finally:
             self._leave()
