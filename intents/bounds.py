@@ -1,4 +1,4 @@
-"""Bounds: "no faster than 0.2 m/s", "whichever is blue", and how long: "a minute's wait".
+"""Bounds: "no faster than 0.2 m/s", "whichever is blue", and how long: "a minute".
 
 They limit an order as much as its own words do. One that comes back in no goal is asked about,
 whichever reading passed it over and whoever made the goals, so that it holds for every front end.

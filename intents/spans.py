@@ -1,4 +1,4 @@
-"""Spans of time told by themselves: "pick it up, a minute's wait, then put it down".
+"""Spans of time told by themselves: "pick it up, a minute, then put it down".
 
 Where nothing is said to be done meanwhile, no reading has a slot for how long it is to last.
 """

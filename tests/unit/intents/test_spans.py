@@ -15,9 +15,8 @@ HOME = Vocabulary.of(
     people=["Ida"],
 )
 ASKED = [
-    "take the flask, an hour's rest, then put it on the rack",
-    "go to the bench, then a minute's pause, then nod",
-    "go to the bench (a minute's break), then nod",
+    "take the flask, an hour's sunshine, then put it on the rack",
+    "go to the bench, then a minute's silence, then nod",
     "in a minute's time, nod",
     "nod for a minute",
     "nod for half an hour",
@@ -28,6 +27,12 @@ ASKED = [
     "put the flask on the rack, 1 metre in",
 ]
 KEPT = [
+    ("take the flask, an hour's rest, then put it on the rack", 3600.0),
+    ("go to the bench, then a minute's pause, then nod", 60.0),
+    ("go to the bench (a minute's break), then nod", 60.0),
+    ("go to the bench, a ten-second pause, nod", 10.0),
+    ("go to the bench, two minutes' rest, and nod", 120.0),
+    ("nod, a short pause of 5 seconds, bow", 5.0),
     ("take the flask, wait a minute, then put it on the rack", 60.0),
     ("take five seconds, then nod", 5.0),
     ("go to the bench and after two minutes go to the rack", 120.0),
