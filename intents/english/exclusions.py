@@ -15,7 +15,7 @@ from intents.goals import ForEach, Goal, ObjectQuery
 _NOT = lexicon.phrases(
     "not,but not,and not,only not,except,except for,apart from,other than,besides,excluding,"
     "save for,aside from,with the exception of,not counting,leaving out,just not,anything but,"
-    "all but,but for"
+    "any but,all but,but for"
 )
 _BUT = ("but",)
 

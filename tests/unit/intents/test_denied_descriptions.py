@@ -57,7 +57,13 @@ def test_what_it_is_not_is_excepted(text: str, other: ObjectQuery):
 
 
 @pytest.mark.parametrize(
-    "text", ["bring me one of the mugs, not the green one", "bring me a mug, but not the green one"]
+    "text",
+    [
+        "bring me one of the mugs, not the green one",
+        "bring me a mug, but not the green one",
+        "bring me a mug, anything but the green one",
+        "bring me a mug, any but the green one",
+    ],
 )
 def test_of_two_the_other_is_meant_and_nothing_asked(text: str):
     (query,) = described(text)
