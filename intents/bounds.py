@@ -1,4 +1,4 @@
-"""Bounds: "no faster than 0.2 m/s", "not closer than 2 metres", "whichever is blue".
+"""Bounds: "no faster than 0.2 m/s", "whichever is blue", and how long: "a minute".
 
 They limit an order as much as its own words do. One that comes back in no goal is asked about,
 whichever reading passed it over and whoever made the goals, so that it holds for every front end.
@@ -10,8 +10,9 @@ from collections.abc import Iterable
 from intents.english.faithfulness import numbers, strings
 from intents.english.words import lexicon
 from intents.english.words.lexer import singular, tokenize
-from intents.english.words.measures import measure, number
+from intents.english.words.measures import UNIT_WORDS, measure, number
 from intents.goals import Answer, Count, Goal, GoTo, If, Report, Say, Tell, each
+from intents.spans import unkept_span
 
 _AMOUNTS = r"more|less|fewer|further|farther|longer|greater"
 _DEGREES = (
@@ -43,8 +44,14 @@ _SPEED = re.compile(
     r"(?:s|sec|second|hour|minute)s?)\b",
     re.IGNORECASE,
 )
+_UNIT = "|".join(sorted(UNIT_WORDS | {"step", "second", "mph"}))
+_AMOUNT = re.compile(
+    rf".*?\bthan\b.*?(?<![a-z])(?:{_UNIT})\b(?:\s*(?:/|per|an?)\s*(?:{_UNIT})\b)?", re.IGNORECASE
+)
+"""A bound up to its amount."""
+_LINK = re.compile(r"[\s,;:–—-]*\b(?:but|and|though|only)?\s*$", re.IGNORECASE)
+"""What leads on to a bound."""
 _TELLING = (Answer, Count, If, Report, Say, Tell)
-"""What compares or quotes carries the words themselves."""
 _SAME = 1e-3
 _LINKS = lexicon.words(
     "whichever whoever whatever one is are of them these those the a an that looks seems comes was"
@@ -52,10 +59,13 @@ _LINKS = lexicon.words(
 
 
 def unkept(text: str, goals: Iterable[Goal]) -> str:
-    """The bound in a text that comes back in none of the goals; empty if there is none."""
+    """The bound or span in a text that comes back in none of the goals; empty if there is none."""
     every = list(each(tuple(goals)))
-    if not every or any(isinstance(goal, _TELLING) for goal in every):
+    if not every or tells(every):
         return ""
+    span = unkept_span(text, numbers(every))
+    if span:
+        return span
     for found in _BOUNDS.finditer(text):
         said = found.group().strip(" .\n\t")
         kind = found.lastgroup
@@ -66,6 +76,27 @@ def unkept(text: str, goals: Iterable[Goal]) -> str:
         if not kept:
             return said
     return ""
+
+
+def tells(goals: Iterable[Goal]) -> bool:
+    """Whether goals carry what is compared or quoted themselves."""
+    return any(isinstance(goal, _TELLING) for goal in each(tuple(goals)))
+
+
+def loosened(text: str) -> tuple[str, str]:
+    """A text without its first "no closer than 1 m" or the like, and that; both empty without one.
+
+    What comes behind the amount is left: "go no closer than 1 m *to the table*".
+    """
+    found = next((one for one in _BOUNDS.finditer(text) if one.lastgroup == "degree"), None)
+    if found is None:
+        return "", ""
+    said = found.group().strip(" .\n\t")
+    amount = _AMOUNT.match(said)
+    end = found.start() + (amount.end() if amount else len(found.group()))
+    said = amount.group().strip() if amount else said
+    begin = _LINK.sub("", text[: found.start()])
+    return f"{begin}{text[end:]}".strip(" ,;.!?"), said
 
 
 def _counted(said: str, goals: list[Goal]) -> bool:

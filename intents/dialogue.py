@@ -41,6 +41,7 @@ from intents.plans import HOW_I_READ_IT
 from intents.risks import risk
 from intents.state import RobotState
 from intents.stopping import is_stop
+from intents.swaps import focused, is_alike, swap
 from intents.the_rest import is_rest, with_the_rest
 from intents.undoing import is_back, is_things_back, is_undo, is_undo_of_several, undone
 from intents.vocabulary import Vocabulary
@@ -135,6 +136,7 @@ class Dialogue:
         self._told_of = ""
         self._answered = False
         self._in_hand = False
+        self._instead = False
         self._asked_where = False
         self._pending: Context | None = None
         self._asked_before: list[tuple[Question, Context | None]] = []
@@ -216,11 +218,25 @@ class Dialogue:
     def _read(self, text: str, state: RobotState) -> Outcome:
         """What a sentence means by itself, here and now."""
         before = replace(self.context, question=None, entities=state.entities, view=state.view)
-        return hear(text, self.vocabulary, context=before)[0]
+        return (self._swapped(text, before) or hear(text, self.vocabulary, context=before))[0]
+
+    def _swapped(self, text: str, before: Context) -> tuple[Outcome, Context] | None:
+        """What "not the bottle, the box" makes of the goals before, if they speak of a bottle."""
+        opened = before.question
+        found = swap(text) if opened is None or small_questions.is_halt(opened) else None
+        about = focused(before, found.old) if found else None
+        if found is None or about is None:
+            return None
+        outcome, after = hear(f"no, {found.new}", self.vocabulary, context=about)
+        if isinstance(outcome, Refusal):
+            return None if found.by_name else (outcome, after)
+        changed = outcome.goals != before.goals
+        alike = not found.by_name or is_alike(outcome.goals, before.goals)
+        return (outcome, after) if changed and alike else None
 
     def ask(self, question: Question) -> None:
         """Put a question of somebody else's, as the one that is open from now on."""
-        self._pending, self._repeats = None, 0
+        self._pending, self._repeats, self._instead = None, 0, False
         self.context = replace(self.context, question=question)
 
     def unask(self) -> None:
@@ -235,6 +251,11 @@ class Dialogue:
         if verdict_of(text) is not None or answered(text, question) is not None:
             return True
         return plans.changed(text, question, self.vocabulary) is not None
+
+    def corrects(self, text: str, goals: tuple[Goal, ...], state: RobotState) -> bool:
+        """Whether a sentence says by name what of these goals is another: "not the cup, ..."."""
+        before = replace(self.context, goals=goals, entities=state.entities, view=state.view)
+        return self._swapped(text, before) is not None
 
     def about(self, goals: tuple[Goal, ...]) -> None:
         """What is said next is about these goals, whatever was asked after them."""
@@ -295,7 +316,7 @@ class Dialogue:
             return Goals(goals=(Cancel(),)) if busy else Reply(text="All right, I leave it.")
         if pending is not None:
             self.context = replace(pending, question=None, said=self.context.said)
-        agreed = Goals(goals=opened.goals, parser=opened.parser)
+        agreed = Goals(goals=opened.goals, parser=opened.parser, instead=self._instead)
         told = self._told(text, agreed, state)
         return told if isinstance(told, Reply) else agreed
 
@@ -322,9 +343,12 @@ class Dialogue:
 
     def _understand(self, text: str, state: RobotState, opened: Question | None) -> Turn:
         before = replace(self.context, entities=state.entities, view=state.view)
-        corrects = is_correction(text)
+        swapped = self._swapped(text, before)
+        corrects = is_correction(text) or swapped is not None
         text = in_full(text, before, self.vocabulary)
-        outcome, after = hear(text, self.vocabulary, context=before, fallback=self.fallback)
+        outcome, after = swapped or hear(
+            text, self.vocabulary, context=before, fallback=self.fallback
+        )
         if state.doing and isinstance(outcome, Question) and outcome.goals == (Stop(),):
             outcome = Goals(goals=(Stop(),))  # whatever it hangs on: to stop at once is safe
         if isinstance(outcome, Refusal) and opened and self._repeats < MAX_REPEATS:
@@ -334,7 +358,9 @@ class Dialogue:
         aside = opened is not None and self._set_aside(text, opened, outcome, before, state)
         if isinstance(aside, Reply):
             return replace(aside, ms=outcome.ms)
+        answers = opened is not None and not self.dropped
         self._close()
+        self._instead = corrects or (answers and self._instead)
         if state.doing and isinstance(outcome, Refusal) and outcome.reason == f"{SHALL_NOT}.":
             goes_on = f"I am at “{state.doing}” and go on with it: “cancel” or “stop” ends it."
             return replace(outcome, reason=goes_on)
@@ -344,7 +370,7 @@ class Dialogue:
             if which is not None:
                 self.ask(which)
                 return which
-            outcome = replace(outcome, instead=corrects)
+            outcome = replace(outcome, instead=self._instead)
             return self._settle(text, outcome, after, state)
         self.context = after
         return outcome

@@ -143,6 +143,9 @@ def ground(
     fitting = [e for e in known if _fits(e, query)]
     if query.relation and fitting:
         fitting = _related(fitting, query.relation, known, view)
+    if query.except_:
+        left_out = _denied(fitting, query.except_, known, view)
+        fitting = [e for e in fitting if e not in left_out]
     if not fitting:
         return Unknown(describe(query), _nearest(query, known))
     if query.superlative:
@@ -160,7 +163,8 @@ def ground(
 def by_where(query: ObjectQuery) -> bool:
     """Whether a description tells things apart by where they are."""
     placed = query.at is not None or query.relation is not None
-    return placed or query.superlative in _BY_PLACE
+    denied = query.except_ is not None and by_where(query.except_)
+    return placed or denied or query.superlative in _BY_PLACE
 
 
 _BY_PLACE = frozenset({"leftmost", "rightmost", "nearest", "farthest", "highest", "lowest"})
@@ -181,8 +185,21 @@ def _fits(entity: Entity, query: ObjectQuery) -> bool:
         and (query.color is None or entity.color == query.color)
         and near
         and (not query.held or entity.held or query.name is not None)
-        and not (query.except_ and _fits(entity, query.except_))
     )
+
+
+def _denied(
+    entities: list[Entity], query: ObjectQuery, known: list[Entity], view: Viewpoint | None
+) -> list[Entity]:
+    """Those that are surely as described: "not on the table" keeps what nobody has seen."""
+    placed = query.at is not None or query.relation is not None
+    sure = [e for e in entities if not placed or e.at or e.room or e.p_WO]
+    found = [e for e in sure if _fits(e, query) and not (query.at and e.held)]
+    if query.relation:
+        found = _related(found, query.relation, known, view)
+    if query.superlative and found:
+        found = _most(found, query.superlative, _views(view))
+    return _sized(found, query.size) if query.size and found else found
 
 
 def _related(
@@ -318,6 +335,10 @@ def describe(query: ObjectQuery) -> str:
     if query.relation:
         ends = [q for q in (query.relation.of, query.relation.other) if q is not None]
         place += f" {HOW_WORDS[query.relation.how]} the {' and the '.join(map(describe, ends))}"
+    if query.except_:
+        other = describe(query.except_)
+        bare = other.startswith("object ")  # told by where it is, and by nothing else
+        place += f" that is not {other.removeprefix('object ') if bare else f'the {other}'}"
     return " ".join(w for w in words if w) + place
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from msgspec.structs import replace
 
 from intents.allowed import excess
-from intents.bounds import unkept
+from intents.bounds import loosened, tells, unkept
 from intents.context import Context, answered, completed
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
@@ -218,7 +218,22 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
     found = second_look(
         text, index_of(vocabulary), first, lambda said: first_look(said, vocabulary, context)
     )
-    return _bounded(text, found.outcome), found.after
+    if not isinstance(found.outcome, Refusal) and found.outcome.goals:
+        return _bounded(text, found.outcome), found.after
+    return _loosened(text, vocabulary, context, found.outcome) or (found.outcome, found.after)
+
+
+def _loosened(
+    text: str, vocabulary: Vocabulary, context: Context, own: Outcome
+) -> tuple[Outcome, Context] | None:
+    """What is said of a text that cannot be read with its bound; None for any other."""
+    plain, said = loosened(text)
+    cannot = f"I cannot promise “{said}”"
+    again = first_look(plain, vocabulary, context) if plain else None
+    if again and isinstance(again.outcome, Goals) and not tells(again.outcome.goals):
+        return just_that(text, Unpromised(cannot, again.outcome.goals)), again.after
+    misread = isinstance(own, Refusal) and any(f"“{word}" in own.reason for word in said.split())
+    return (Refusal(reason=f"{cannot}.", puzzled=True), context) if misread else None
 
 
 def _bounded(text: str, outcome: Outcome) -> Outcome:

@@ -46,7 +46,9 @@ def thing(query: ObjectQuery) -> str:
     if query.relation:
         where += f" {_beside(query.relation)}"
     if query.except_:
-        where += f" except {thing(query.except_)}"
+        other = query.except_
+        nameless = other.name is None and other.category is None and not other.held
+        where += f" except {thing(replace(other, name='one') if nameless else other)}"
     return f"{first} {words}{where}"
 
 

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
+from executive.health import Finding, Health, Level
 from robot.errors import RobotError
+from robot.failures import failure
+
+_NAME = "emergency stop"
 
 
 class StillPressed(RobotError):
@@ -26,6 +32,19 @@ class EmergencyStop:
     def latched(self) -> bool:
         """Whether the robot has to stay at rest."""
         return bool(self.why)
+
+    @property
+    def finding(self) -> Finding | None:
+        """What it says of the robot's health; None while nothing is latched."""
+        if not self.latched:
+            return None
+        return Finding(name=_NAME, level=Level.SIT, failure=failure("emergency_stop", self.why))
+
+    def seen_in(self, health: Health) -> Health:
+        """The robot's health as it was at some tick, with this as it is now."""
+        others = [one for one in health.findings if one.name != _NAME]
+        now = [*others, *filter(None, [self.finding])]
+        return replace(health, findings=tuple(sorted(now, key=lambda one: -one.level)))
 
     def press(self, why: str = "the emergency stop was pressed") -> None:
         """Hold it down; from any thread."""

@@ -18,7 +18,17 @@ import msgspec
 
 from executive.behaviours.ask import ANSWERS, Answer
 from executive.behaviours.stage import Stage, failure_data
-from executive.blackboard import ABORT, HELP, PAUSE, PAUSED, SAID, SPEED_LIMIT, STOP, Blackboard
+from executive.blackboard import (
+    ABORT,
+    HEALTH,
+    HELP,
+    PAUSE,
+    PAUSED,
+    SAID,
+    SPEED_LIMIT,
+    STOP,
+    Blackboard,
+)
 from executive.engine.estop import EmergencyStop
 from executive.engine.health_monitor import HealthMonitor
 from executive.engine.job_book import JobBook, JobError, Outcome
@@ -26,6 +36,7 @@ from executive.engine.job_tree import Work
 from executive.engine.jobs import UNLIMITED, Job, Limits
 from executive.engine.sense import Sense
 from executive.engine.tree import BuildTask, Tree
+from executive.health import Health
 from executive.journal.journal import Journal
 from executive.journal.reader import Reader
 from executive.skills import catalogue
@@ -250,6 +261,11 @@ class Executive:
     def question(self) -> str:
         """What a person is asked to help with; empty when nothing is."""
         return self.board.read(HELP)
+
+    @property
+    def health(self) -> Health:
+        """How well the robot is, as of the last tick; the emergency stop as it is now."""
+        return self.estop.seen_in(self.board.read(HEALTH))
 
     @property
     def attended(self) -> bool:

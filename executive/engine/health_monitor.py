@@ -184,9 +184,7 @@ class HealthMonitor:
             finding = self._silence(name, concern, rate_hz, ages_s[name], came=stamp_s is not None)
             thin = self._flows[name].judge(name, now_s, stamp_s)
             findings += [one for one in (finding or thin,) if one is not None]
-        if self._estop.latched:
-            reason = failure("emergency_stop", self._estop.why)
-            findings.append(Finding(name="emergency stop", level=Level.SIT, failure=reason))
+        findings += filter(None, [self._estop.finding])
         if body is not None:
             findings += [*_fall(body), *self._heat(body)]
         if world is not None:

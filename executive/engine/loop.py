@@ -95,6 +95,8 @@ class Interrupts:
         self.count = 0
         self.pressed = 0
         """As `count`, but never from zero again."""
+        self.leaving = False
+        """Whether SIGTERM or SIGHUP came: whoever sent it wants the program to end."""
         self.heeded = False
         """Whether the stop that the first one asks for has been asked for."""
         self.on_press: Callable[[], None] = _nothing
@@ -132,6 +134,7 @@ class Interrupts:
             arrived = [number for number in pipe.drain() if number in numbers]
             presses = arrived.count(signal.SIGINT)
             if presses < len(arrived):
+                self.leaving = True
                 self.wish()
             if presses:  # else they were counted with the signal before
                 self.press(presses)

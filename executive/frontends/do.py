@@ -41,6 +41,9 @@ def do(options: Do, handle: Handle | None = None) -> int:
         understood = _understood(options, where)
         if isinstance(understood, request.Refused):
             return refuse(understood, as_json=options.as_json)
+        if understood.remark:
+            told = f"  {understood.remark}"
+            say(told, err=options.as_json, styled=(told, "dim"))
         folder = folder_for(options.run_dir, options.text, handle)
         setup = carrying_out.setup(where, options, folder)
         return Prepared(assignment=Assignment(understood=understood), setup=setup)

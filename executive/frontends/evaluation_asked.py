@@ -64,19 +64,21 @@ def as_before(options: Eval) -> Eval:
     More seeds than before are more runs; fewer are as many as before.
 
     Raises:
-        ConfigError: if what was kept cannot be read.
+        ConfigError: if what was kept cannot be read, or something else is asked for now.
     """
     path = options.resume / FILE if options.resume is not None else None
-    chosen = (options.missions, options.tasks, options.faults, options.homes, options.world)
-    if path is None or any(chosen) or not path.exists():
+    if path is None or not path.exists():
         return options
     try:
         text = read_ordinary(path, limit=LIMIT, follow_links=False).decode()
         asked = fitted(from_json(text), Asked, path)
     except ValueError as error:
-        cure = "name the missions, tasks or faults again"
+        cure = "leave --resume out to begin anew"
         text = f"it cannot be read: {error}"
         raise ConfigError([Problem(text, str(path), suggestion=cure)]) from None
+    if any(_chosen(options).values()):
+        _must_be_as_before(options, asked)
+        return options
     return replace(
         options,
         missions=list(asked.missions) or None,
@@ -89,3 +91,35 @@ def as_before(options: Eval) -> Eval:
         seeds=max(options.seeds, asked.seeds),
         no_recovery=options.no_recovery or asked.no_recovery,
     )
+
+
+def _chosen(options: Eval | Asked) -> dict[str, tuple[str, ...]]:
+    """What is evaluated, by the name of its option."""
+    return {
+        "missions": tuple(options.missions or ()),
+        "--tasks": tuple(str(path) for path in options.tasks or ()),
+        "--faults": tuple(filter(None, [options.faults])),
+        "--homes": tuple(filter(None, [options.homes])),
+        "--world": tuple(filter(None, [options.world])),
+    }
+
+
+def _must_be_as_before(options: Eval, asked: Asked) -> None:
+    """Refuse to put results of something else beside those that are there.
+
+    Raises:
+        ConfigError: with all that differs.
+    """
+    now, before = _chosen(options), _chosen(asked)
+    problems = [
+        Problem(
+            f"the results in {options.resume} are of {', '.join(before[name]) or 'none'}, "
+            f"not of {', '.join(now[name]) or 'none'}",
+            name,
+            suggestion=f"humanoid eval --resume {options.resume} goes on; without it, begin anew",
+        )
+        for name in now
+        if sorted(now[name]) != sorted(before[name])
+    ]
+    if problems:
+        raise ConfigError(problems)

@@ -54,16 +54,20 @@ def come_to_rest(run: Run) -> None:
     """Let what stands around the jobs of a whole run be over where all of them are.
 
     The last tick, in which that is noted, tells no more of itself; of a run that was cut off what
-    ran last is what it was at.
+    ran last is what it was at. What of a job still ran was given up without another tick: it was
+    stopped.
     """
     if not run.endings or any(job.states and job.states[-1][1] not in OVER for job in run.jobs):
         return
     around = {node.parent for node in run.nodes.values() if node.kind == "jobs"}
     below = {number for parent in around if parent >= 0 for number in run.nodes[parent].children}
     guards = [number for number in below if run.nodes[number].kind in _GUARDS]
-    for _, node in run.walk(guards):
-        if _last(node).state == "running":
-            node.changes.append(Change(run.end_s, "done"))
+    jobs = [number for number in below if run.nodes[number].kind == "jobs"]
+    ends: tuple[tuple[list[int], State], ...] = ((guards, "done"), (jobs, "stopped"))
+    for roots, state in ends:
+        for _, node in run.walk(roots):
+            if _last(node).state == "running":
+                node.changes.append(Change(run.end_s, state))
 
 
 def at_work(run: Run) -> list[Shown]:

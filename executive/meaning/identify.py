@@ -93,6 +93,10 @@ class Scene:
         scene.spoken_of = ids[0]
         return scene
 
+    def is_settled(self, query: goals.ObjectQuery) -> bool:
+        """Whether it was looked which things a description means."""
+        return _bare(query) in self._settled
+
     def follow(self, other: Scene) -> None:
         """Go on from what another one has come to."""
         self.held, self.spoken_of = list(other.held), other.spoken_of
@@ -134,7 +138,7 @@ class Scene:
     def fitting(self, query: goals.ObjectQuery) -> list[ObjectInfo]:
         """Every object that a description may mean; there may be none."""
         try:
-            return self._all(replace(query, count="all", at=None, relation=None, superlative=None))
+            return self._all(replace(_anywhere(query), held=query.held))
         except CannotMean:
             return []
 
@@ -216,8 +220,7 @@ class Scene:
             Unsettled: it is not known of all of them where they are, or nothing is believed to be
                 there, or something is moved before it is asked.
         """
-        looks = replace(query, at=None, relation=None, superlative=None, count="all", held=False)
-        alike = ground(looks, self._entities)
+        alike = ground(_anywhere(query), self._entities)
         if not isinstance(alike, Grounded):
             return found
         if len(alike.ids) == 1 and query.count in (None, 1):
@@ -263,6 +266,15 @@ class Scene:
         names = ", ".join(known.name for known in self.knowledge.map.people)
         hint = f"people in this world: {names}" if names else "nobody is in this world"
         raise cannot("unknown_place", f"the robot does not know where {who}", suggestion=hint)
+
+
+def _anywhere(query: goals.ObjectQuery) -> goals.ObjectQuery:
+    """All that look as described, wherever they are."""
+    other = query.except_
+    return replace(
+        query, count="all", at=None, relation=None, superlative=None, held=False,
+        except_=None if other is not None and by_where(other) else other,
+    )  # fmt: skip
 
 
 def _bare(query: goals.ObjectQuery) -> goals.ObjectQuery:

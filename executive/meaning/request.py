@@ -71,7 +71,8 @@ class Refused(msgspec.Struct, frozen=True, kw_only=True):
 class Understood(msgspec.Struct, frozen=True, kw_only=True):
     """A sentence, its goals, the task they make; what is in the hands before and after it (ids).
 
-    `whereabouts` is what they were understood by, where their meaning depends on it.
+    `whereabouts` is what they were understood by, where their meaning depends on it; `remark` what
+    people are told of how they were understood.
     """
 
     text: str
@@ -80,6 +81,7 @@ class Understood(msgspec.Struct, frozen=True, kw_only=True):
     held: tuple[str, ...] = ()
     holds: tuple[str, ...] = ()
     whereabouts: Whereabouts | None = None
+    remark: str = ""
 
 
 def setting(reality: Reality, world: str, *, robot: str, vary_seed: int | None = None) -> Setting:
@@ -117,7 +119,10 @@ def request(
         plan = outcome.parser == "model" and outcome.goals and not risk(outcome.goals)
         cure = AGREE if plan else ANSWER
         return Refused(outcome="question", reason=outcome.question, suggestion=cure)
-    return meant(text, outcome.goals, where)
+    understood = meant(text, outcome.goals, where)
+    if isinstance(understood, Refused):
+        return understood
+    return replace(understood, remark=outcome.reason or "")
 
 
 def meant(

@@ -36,6 +36,7 @@ class Reader:
         self._problems = problems
         self._fill = fill
         self._key = ""
+        self._words: tuple[str, ...] | None = None
 
     def record(self, node: Node, kind: type[T]) -> T | None:
         """A mapping as a record; None if anything in it is wrong."""
@@ -141,6 +142,7 @@ class Reader:
                 self._problems.add(key, f"unknown key {name!r}", cure)
                 continue
             self._key = name
+            self._words = info.cls.words(name, node) if issubclass(info.cls, Record) else None
             try:
                 found[field.name] = self._value(value, field.type)
             except Mistake:
@@ -197,9 +199,12 @@ class Reader:
             ):
                 return self._bounded(node, float(value), info)
             case types.LiteralType():
-                if node.text in info.values:
+                valid = [str(v) for v in info.values if self._words is None or v in self._words]
+                if node.text in valid:
                     return node.text
-                valid = [str(v) for v in info.values]
+                if not valid:
+                    text = f"{self._key}: {_shape(node)} means nothing here"
+                    raise self._wrong(node, text, "leave it out")
                 text = f"{self._key}: {_shape(node)} is none of the words that may stand here"
                 raise self._wrong(node, text, nearest(node.text, valid))
             case _:

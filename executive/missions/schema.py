@@ -8,7 +8,7 @@ first field is the key that it is known by.
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias, get_args
 
 import msgspec
 from msgspec import Meta
@@ -16,6 +16,7 @@ from msgspec import Meta
 from executive.skills.navigate import MAX_DISPLACEMENT_M, MAX_TURN_RAD
 from executive.skills.parameters import MAX_DURATION_S
 from intents import goals
+from robot.yaml_nodes import Node
 
 Parameter: TypeAlias = Annotated[
     str, Meta(pattern=r"^\{\{ *[a-z][a-z0-9_]* *\}\}$", description="A parameter of the mission.")
@@ -66,6 +67,12 @@ class Record(
             "not_": "not"},
 ):  # fmt: skip
     """A mapping with known keys."""
+
+    @classmethod
+    def words(cls, key: str, node: Node) -> tuple[str, ...] | None:
+        """The words that may stand at a key beside the others there; None: those of its type."""
+        del key, node
+        return None
 
 
 # --- the file -----------------------------------------------------------------------------------
@@ -234,6 +241,14 @@ class BalanceSlots(Record, frozen=True, kw_only=True):
     mode: goals.BalanceMode
     side: goals.Side | None = None
     duration_s: Span | Parameter | None = None
+
+    @classmethod
+    def words(cls, key: str, node: Node) -> tuple[str, ...] | None:
+        """A leg is left or right, a lean goes to any side, and nothing else has one."""
+        mode = node.get("mode")
+        if key != "side" or mode is None or mode.text not in get_args(goals.BalanceMode):
+            return None
+        return {"one_leg": ("left", "right"), "lean": get_args(goals.Side)}.get(mode.text, ())
 
 
 class WaitSlots(Record, frozen=True, kw_only=True):

@@ -15,7 +15,7 @@ from intents.goals import ForEach, Goal, ObjectQuery
 _NOT = lexicon.phrases(
     "not,but not,and not,only not,except,except for,apart from,other than,besides,excluding,"
     "save for,aside from,with the exception of,not counting,leaving out,just not,anything but,"
-    "all but,but for"
+    "any but,all but,but for"
 )
 _BUT = ("but",)
 
@@ -42,6 +42,8 @@ def excluded(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
         sentence.notes.passed.append((at, end))
         return last, end  # all pens, but the markers no: no pen is a marker
     without = _narrowed(about, other, phrase, scope)
+    if without.except_ is None:
+        sentence.notes.passed.append((at, end))  # of two colours the other one comes back
     return [substitute(goal, about, without) for goal in last], end
 
 

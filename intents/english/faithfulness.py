@@ -13,7 +13,14 @@ from typing import NamedTuple, cast
 
 from intents.english.words import lexicon
 from intents.english.words.lexer import singular
-from intents.english.words.measures import NUMBER_WORDS, measure, number
+from intents.english.words.measures import (
+    NUMBER_WORDS,
+    UNIT_WORDS,
+    Measure,
+    Number,
+    measure,
+    number,
+)
 from intents.english.words.spelling import GRAMMAR_WORDS
 from intents.english.words.text import Text
 from intents.english.words.verbs import base_form, participle_base, verbs_at
@@ -49,6 +56,8 @@ _WAYS = lexicon.words(
 """How something is to be done, for which no goal has a slot but a walk by some distance."""
 _POSES = lexicon.words("kneel kneeling")
 """What is taken for a squat, and is none."""
+_PARTS = lexicon.words("foot yard")
+"""Units that are things, too."""
 _ORDINALS = lexicon.words("second third fourth fifth")
 _BOARDS = lexicon.words("top upper bottom lower middle topmost uppermost")
 CARRYING = (
@@ -160,6 +169,8 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
     amount = measure(text.words, at) or number(text.words, at)
     if amount and told.number(amount.value):
         return amount.end, True
+    if amount and _is_quantity(text, at, amount) and not told.speaks:
+        return amount.end, False  # a minute's wait
     if amount and (word in NUMBER_WORDS - {"one"} or word[0].isdigit()) and not told.speaks:
         return amount.end, amount.value == 1 or (told.has(Repeat) and amount.value < 1)
     verb = max((end for _, end in verbs_at(text.words, at)), default=at)
@@ -168,6 +179,16 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
     if word in CARRYING:
         return at + 1, told.speaks or _word_carried(text, at, told)
     return at + 1, told.speaks or _is_listed(word)
+
+
+def _is_quantity(text: Text, at: int, amount: Measure | Number) -> bool:
+    """Whether an amount, be it of one, says how long or how far: *a minute*, *1 m*; not *a foot*.
+
+    Who is to come "here (for) a minute" is not told to leave after it.
+    """
+    measured = isinstance(amount, Measure) and amount.kind in ("time", "length")
+    here = "here" in (text.word(at - 1), text.word(at - 2) if text.word(at - 1) == "for" else "")
+    return measured and not here and text.word(amount.end - 1) in UNIT_WORDS - _PARTS
 
 
 def _is_listed(word: str) -> bool:

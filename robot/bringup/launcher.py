@@ -128,6 +128,7 @@ class Launcher:
         self._processes = processes
         self._robot: Supervisor | None = None
         self._state = self._told = State()
+        self._died = ""
         self._pass_on_s = math.inf
         self._passed_on = self._unheeded = self._stop_heard = False
 
@@ -139,7 +140,8 @@ class Launcher:
                 while True:
                     ended = self._one_executive()
                     if ended is None:
-                        terminal.hear_stops()
+                        terminal.hear_stops()  # first: who reads the notice presses Ctrl-C
+                        self._tell(self._died)
                         continue
                     if ended.reason or self._front.deaths:
                         terminal.restore()
@@ -183,7 +185,7 @@ class Launcher:
         if not self._executive.may_start_again:
             often = self._executive.row.restarts + 1
             return self._give_up(f"the executive {died}, {often} times within a minute")
-        self._tell(f"The executive {died}. The robot finishes its step and stands; going on ...")
+        self._died = f"The executive {died}. The robot finishes its step and stands; going on ..."
         deaths = self._front.deaths + 1
         self._front = msgspec.structs.replace(self._front, deaths=deaths)
         return None

@@ -13,7 +13,7 @@ from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
 from executive.meaning import request
 from executive.runs import runtimes
-from executive.runs.runtimes import Opened, Setup
+from executive.runs.runtimes import Kind, Opened, Setup
 from robot.clock import WallClock
 from robot.se3 import SE3
 from tests.fakes.puppet_prompt import Paced
@@ -21,7 +21,9 @@ from tests.fakes.puppet_runtime import SensingPuppet
 
 
 @contextmanager
-def puppet_shell(folder: Path, said: list[str], *, world: str = "kitchen") -> Generator[Shell]:
+def puppet_shell(
+    folder: Path, said: list[str], *, world: str = "kitchen", kind: Kind = "live"
+) -> Generator[Shell]:
     """A shell whose robot is up; what it says is put into `said`."""
     where = request.setting(REALITY, world, robot="juno")
     runtime = Paced(SensingPuppet(where.description, {}, where.world_map, X_WN=SE3()))
@@ -32,7 +34,7 @@ def puppet_shell(folder: Path, said: list[str], *, world: str = "kitchen") -> Ge
 
     before, runtimes.opened = runtimes.opened, opened  # type: ignore[assignment]
     try:
-        setup = Setup(where=where, kind="live", folder=folder)
+        setup = Setup(where=where, kind=kind, folder=folder)
         with Robot(setup, wall=WallClock(), time_of_day=time.time) as robot:
             yield Shell(robot, said.append, table=table.commands, folder=folder)
     finally:

@@ -84,6 +84,13 @@ def test_as_json_there_is_one_object_and_nothing_else(runtime, humanoid):
     assert record["folder"] == "here"
 
 
+def test_what_is_remarked_on_is_told_once_before_it_begins(runtime, humanoid):
+    status, text = humanoid("do", "nod quickly", "--fast")
+    assert status == 0
+    assert text.splitlines()[0] == "  I move at my own pace: “quickly” changes nothing."
+    assert text.count("I move at my own pace") == 1
+
+
 @pytest.mark.parametrize(
     "sentence",
     [

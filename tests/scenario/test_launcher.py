@@ -21,6 +21,7 @@ from dataclasses import replace
 from robot.bringup import child, launcher, lowering
 from robot.bringup.processes import EXECUTIVE, Process
 lowering.lower = lambda run, clock: "the robot squatted; its motors damp"
+launcher._Terminal.hear_stops = lambda self: print("Ctrl-C is a signal", flush=True)
 STUB = "tests.fakes.stub_process"
 three = (Process("plant", STUB, "simulation", death="plant_lost"),
          Process("controller", STUB, "always", death="controller_lost"))
@@ -141,6 +142,8 @@ def test_a_killed_executive_is_started_again_and_the_robot_stays(shell, tmp_path
     status, text = job.end()
     assert status == 1
     assert "The executive was killed by SIGKILL. The robot finishes its step and stands" in text
+    heard, told = text.index("Ctrl-C is a signal"), text.index("The executive was killed")
+    assert heard < told  # who reads the notice may press it at once
     assert (tmp_path / "logs" / "plant.log").read_text().count("ready") == 1
 
 

@@ -99,6 +99,13 @@ class Queueing:
         asked = self._asked.get(job.number)
         return asked[0].goals if asked else ()
 
+    def open_orders(self) -> list[Job]:
+        """The jobs that were asked for here and are to be done, the newest first."""
+        gave_up = self._brake.halt.gave_up
+        jobs = [job for job in self._robot.executive.jobs if job.number in self._asked]
+        left = [job for job in jobs if job.state not in OVER and not gave_up(job)]
+        return sorted(left, key=lambda job: job.number, reverse=True)
+
     def foresee_s(self, job: Job) -> float | None:
         """How long a job takes in all; None if it was not asked for here, or cannot be said."""
         asked = self._asked.get(job.number)

@@ -238,6 +238,8 @@ class Robot(Closing):
                 else:
                     self._wake.wait(0.1)
                     self._wake.clear()
+                    if self.executive.health.level != self.view.level:
+                        self._see()  # the emergency stop acts without a tick, too
             lost = robot.runtime.failure()
             self.view = self.view if lost is None else view_of_lost(self.view, lost)
 
@@ -249,7 +251,11 @@ class Robot(Closing):
         now_s = self.session.now_s
         while self._faults:
             self.session.faults.strike(self._faults.popleft(), now_s)
-        self.view = self.observer.look(self.executive, now_s=now_s, wall_s=self._wall.now_s())
+        self._see()
+
+    def _see(self) -> None:
+        now_s, wall_s = self.session.now_s, self._wall.now_s()
+        self.view = self.observer.look(self.executive, now_s=now_s, wall_s=wall_s)
 
     # --- entering and leaving ---
 

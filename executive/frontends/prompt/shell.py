@@ -247,6 +247,8 @@ class Shell(Answering):
         understood = self.understand(text)
         if isinstance(understood, Understood):
             self.submit(understood, urgent=urgent)
+        if self.dialogue.question is None:
+            self.queue.corrected = None  # what was corrected is known, or nothing was
 
     def understand(self, text: str, *, steers: bool = True) -> Understood | None:
         """What a sentence asks for, as `Understanding` says it."""
@@ -308,6 +310,7 @@ class Shell(Answering):
             return
         self._tell_of_halt()
         state = self._understanding.state()
+        self._understanding.turn_to_order(text, state)
         said = self.dialogue.besides(text, state) or self._besides_of_halted(text, state)
         if said:
             self.sentence(said)
@@ -315,16 +318,19 @@ class Shell(Answering):
             self.refuse(f"I do not know what “{left}” is to change.")
 
     def _besides_of_halted(self, text: str, state: RobotState) -> str:
-        """What a cry corrects of the job that it has halted, where it means nothing else."""
-        job = self.brake.halt.kept[0]
-        before, goals = self.dialogue.context, self.queue.goals_of(job)
-        self.dialogue.about(goals)
-        said = self.dialogue.besides(text, state) if goals else ""
-        if said:
-            self.queue.corrected = job.number
-        else:
-            self.dialogue.about(before.goals)
-        return said
+        """What a cry corrects of a job that is to be done, where it means nothing else.
+
+        The one that it has halted comes first, then the newest.
+        """
+        before = self.dialogue.context
+        for job in (self.brake.halt.kept[0], *self.queue.open_orders()):
+            goals = self.queue.goals_of(job)
+            self.dialogue.about(goals)
+            if goals and (said := self.dialogue.besides(text, state)):
+                self.queue.corrected = job.number
+                return said
+        self.dialogue.about(before.goals)
+        return ""
 
     def _tell_of_halt(self) -> None:
         """Say that the robot halts, once and before anything is asked about it."""

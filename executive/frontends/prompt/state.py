@@ -25,6 +25,7 @@ def robot_state(executive: Executive, link: BodyLink, knowledge: Knowledge) -> R
     over = [job for job in jobs if job.state in OVER]
     power, help_ = link.power(), executive.question
     state = state_of(executive.board, knowledge, skills=SKILLS)
+    unwell = [finding.failure.cause for finding in executive.health.findings]
     start = knowledge.map.start_X_WS
     x_m, y_m, _ = start.p
     return replace(
@@ -37,7 +38,7 @@ def robot_state(executive: Executive, link: BodyLink, knowledge: Knowledge) -> R
         waiting=tuple(job.text for job in jobs if job.state == "waiting"),
         mode={"pausing": "paused", "stopping": "stopped"}.get(executive.state, executive.state),
         holds=_holds(executive, under_way[0].text if under_way else ""),
-        problems=(*state.problems, *([f"I need help, {help_}"] if help_ else [])),
+        problems=(*unwell, *([f"I need help, {help_}"] if help_ else [])),
         battery=power.charge if power else None,
         last=_ending(over[-1]) if over else "",
         did=over[-1].text if over else "",

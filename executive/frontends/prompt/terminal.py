@@ -81,7 +81,7 @@ class Terminal:
         prompting = threading.Thread(target=self._prompting, name="prompt", daemon=True)
         prompting.start()
         try:
-            while prompting.is_alive() and interrupts.pressed == before:
+            while prompting.is_alive() and interrupts.pressed == before and not interrupts.leaving:
                 prompting.join(REFRESH_S)
         finally:
             self._leave()
@@ -297,7 +297,10 @@ class Terminal:
             self._shell.out(NOT_SUSPENDED)
 
         def ignore(_event: KeyPressEvent) -> None:
-            """Nobody asked for the mouse: what looks like a report of it is a pasted colour."""
+            """What is no text: a report of the mouse, for which nobody asked, is a pasted colour.
+
+            Ctrl-S and Ctrl-Q are pressed to hold the screen and let it go.
+            """
 
         add: Callable[..., Callable[[Callable[[KeyPressEvent], None]], object]] = keys.add
         for key in (Keys.ControlC, Keys.ControlBackslash):
@@ -307,6 +310,8 @@ class Terminal:
         add(Keys.ControlZ, eager=True)(suspend)
         add(Keys.BracketedPaste)(paste)
         add(Keys.Vt100MouseEvent)(ignore)
+        add(Keys.ControlS, filter=~is_searching, eager=True)(ignore)
+        add(Keys.ControlQ, eager=True)(ignore)
         return keys
 
 

@@ -72,6 +72,7 @@ class Understanding:
             if not self._robot.busy:
                 self._model.begin_mission()
         answers = dialogue.question is not None
+        self.turn_to_order(text, state)
         turn = dialogue.hear(text, state)
         if self._brake.stopped:  # it may have taken as long as a language model does
             dialogue.forget()
@@ -88,6 +89,18 @@ class Understanding:
             about = f"“{still.text}”: " if still.text else ""
             self._people.answer(f"Still open: {about}{still.question}")
         return understood
+
+    def turn_to_order(self, text: str, state: RobotState) -> None:
+        """Let what says by name what it corrects correct the newest order that speaks of it.
+
+        That may be one which waits: "not the bottle, the box".
+        """
+        for job in self._queue.open_orders():
+            goals = self._queue.goals_of(job)
+            if self._dialogue.corrects(text, goals, state):
+                self._dialogue.about(goals)
+                self._queue.corrected = job.number
+                return
 
     def state(self) -> RobotState:
         """What the robot knows of itself, now."""
@@ -145,6 +158,8 @@ class Understanding:
                 self._dialogue.not_to_be_had()
             self._people.refuse(f"Not done: {understood.reason}", understood.suggestion)
             return None
+        if turn.reason:
+            self._people.out(f"  {turn.reason}")
         return understood
 
     def _tell_trouble(self) -> None:

@@ -8,7 +8,7 @@ from collections import deque
 import msgspec
 from msgspec.structs import replace
 
-from executive.blackboard import BODY, HEALTH, HELD, HELP, PHASE, WORLD
+from executive.blackboard import BODY, HELD, HELP, PHASE, WORLD
 from executive.engine.executive import Executive
 from executive.engine.jobs import UNDER_WAY
 from executive.health import Level
@@ -83,7 +83,7 @@ class Observer:
             wall_s: wall time, for the pace and for how often the tree is read.
         """
         board = executive.board
-        body, world, health = board.read(BODY), board.read(WORLD), board.read(HEALTH)
+        body, world, health = board.read(BODY), board.read(WORLD), executive.health
         running = [job for job in executive.jobs if job.state in UNDER_WAY]
         phase = board.read(PHASE) if running else ""
         pose = None

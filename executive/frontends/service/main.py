@@ -109,7 +109,7 @@ def _attend(shell: Shell, place: Place, options: Served, handle: Handle | None) 
             shell.out(greeting(options))
             tell_manager("READY=1")
             while not counter.left.wait(POLL_S):
-                if shell.gone or interrupts.pressed != before:
+                if shell.gone or interrupts.leaving or interrupts.pressed != before:
                     break
             tell_manager("STOPPING=1")
             if shell.gone:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from executive.behaviours.run_skill import Bound
 from executive.meaning import answers
 from executive.meaning.handlers.putting import beside, part_of_place
-from executive.meaning.handlers.settling import places_at
+from executive.meaning.handlers.settling import from_there, places_at
 from executive.meaning.handlers.steps import about, many, search, several, surfaces
 from executive.meaning.identify import Scene, cannot
 from executive.skills.give import GiveParams
@@ -47,6 +47,8 @@ def _pick_one(
     pick = about(info, f"pick up {name}", params)
     if query.at is None:  # picking begins with looking for it everywhere
         return pick
+    if not many(query) and not scene.is_settled(query):
+        pick = from_there(info, query, scene, pick)
     return Series(name=f"take {name}", parts=(search(info, query, scene), pick))
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 
 from msgspec.structs import replace
 
-from executive.blackboard import WORLD, Blackboard
+from executive.blackboard import HELD, WORLD, Blackboard
 from executive.meaning.handlers.steps import about, search, to_look_over, tolerant, visit
 from executive.meaning.identify import CannotMean, Scene
 from executive.meaning.knowledge import Knowledge, stands_on
@@ -79,6 +79,34 @@ def settle(query: goals.ObjectQuery, scene: Scene, rest: Continue) -> Settle:
     )
 
 
+def from_there(info: ObjectInfo, query: goals.ObjectQuery, scene: Scene, take: Part) -> Settle:
+    """Take a thing from where it was said to be, and from nowhere else.
+
+    If it is believed elsewhere, the place that was said is looked over first.
+
+    Raises:
+        CannotMean: there is no such place.
+    """
+    places = places_at(query.at or "", scene)
+    at = scene.believed_at(info)
+    elsewhere = at and at not in {place.name for place in places}
+    named = to_look_over(scene.places(query.at or ""), scene) if elsewhere else ()
+    only_there = replace(query, relation=None, superlative=None)
+    there = _Question(only_there, frozenset({info.id}), scene)
+    return Settle(
+        name=f"is {info.full_name} {_on(query.at or '', scene.knowledge)}",
+        looks=tuple(tolerant(visit(place)) for place in named),
+        question=lambda board: (info.id,) if _is_held(info.id, board) else there(board),
+        then=lambda _: take,
+        likely=take,
+    )
+
+
+def _is_held(object_id: str, board: Blackboard) -> bool:
+    """Whether a thing is in a hand."""
+    return object_id in board.read(HELD).values()
+
+
 def counted(
     query: goals.ObjectQuery, scene: Scene
 ) -> tuple[tuple[Part, ...], Callable[[Blackboard], int]]:
@@ -107,9 +135,13 @@ def nothing_there(query: goals.ObjectQuery, knowledge: Knowledge) -> str:
     """That a place was looked at in vain: "there is nothing on the table but the blue cup"."""
     bare = replace(query, at=None, count=None, except_=None, held=False)
     what = "nothing" if bare == goals.ObjectQuery() else f"no {describe(bare)}"
-    floors = all(place.floor for place in knowledge.places(query.at or ""))
     but = f" but the {describe(query.except_)}" if query.except_ is not None else ""
-    return f"there is {what} {'in' if floors else 'on'} the {query.at}{but}"
+    return f"there is {what} {_on(query.at or '', knowledge)}{but}"
+
+
+def _on(name: str, knowledge: Knowledge) -> str:
+    """*On the table*, *in the kitchen*."""
+    return f"{'in' if all(place.floor for place in knowledge.places(name)) else 'on'} the {name}"
 
 
 # --- where to look ------------------------------------------------------------------------------
@@ -241,6 +273,16 @@ class _Question:
         on = any(stands_on(X_WO, place) for place in self._surfaces)
         return not self._places or on or entity.room in rooms
 
+    def _is_away(self, entity: Entity) -> bool:
+        """Whether it is such a thing, known to be elsewhere."""
+        known = entity.at or entity.room or entity.holder
+        return entity.id in self._alike and bool(known) and not self._is_there(entity)
+
+    def _on(self, entity: Entity) -> str:
+        if entity.holder:
+            return f"with {entity.holder}"
+        return _on(entity.at or entity.room, self._knowledge)
+
     def _furniture(self) -> list[Entity]:
         """The furniture that a description goes by, as things."""
         relation = self._query.relation
@@ -290,7 +332,13 @@ class _Question:
 
     def _not_seen(self, seen: Sequence[Entity]) -> Failure:
         if self._query.at and not (self._query.relation or self._query.superlative):
-            return failure("object_not_seen", nothing_there(self._query, self._knowledge))
+            text = nothing_there(self._query, self._knowledge)
+            away = [one for one in seen if self._is_away(one)]
+            if len(self._alike) > 1 or not away:
+                return failure("object_not_seen", text)
+            text += f"; the {describe_entity(away[0])} is {self._on(away[0])}"
+            cure = f"say it without “{_on(self._query.at, self._knowledge)}”"
+            return failure("object_not_seen", text, suggestion=cure)
         alike = [e for e in seen if e.id in self._alike]
         others = [f"the {describe_entity(e)}" + (f" at the {e.at}" if e.at else "") for e in alike]
         hint = f"; saw {', '.join(others)}" if others else ""

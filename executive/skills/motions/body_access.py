@@ -52,6 +52,7 @@ class Body:
         self.description = context.description
         self.now_s = 0.0
         self._since_s: float | None = None
+        self._was_up = False
         self.phase = ""
         self.progress = 0.0
         self.companion = ""
@@ -69,9 +70,10 @@ class Body:
         """
         state = self.state_down
         if state.mode == "fallen":
-            raise self._fell(state)
+            raise self._lies(state)
         if state.mode == "damping" and state.failure is not None:
             raise GaveUp(state.failure)
+        self._was_up = True
         if self.replaced(state):
             raise give_up(
                 "controller_lost", f"the controller died while {self.phase or 'standing'}"
@@ -94,11 +96,11 @@ class Body:
             raise give_up("sensor_silent", "the body stopped reporting its state", age_s=age_s)
         return state
 
-    def _fell(self, state: BodyState) -> GaveUp:
-        """It lies, onto which side, and what it was doing when it fell."""
+    def _lies(self, state: BodyState) -> GaveUp:
+        """It lies, on which side, and what it was doing when it fell, if it has been up since."""
         side = str(state.failure.evidence.get("side", "")) if state.failure else ""
         where = f" {side}" if side else ""
-        if not self.phase:
+        if not (self.phase and self._was_up):
             return give_up("fallen", f"the robot lies{where or ' on the floor'}", side=side)
         return give_up("fallen", f"the robot fell{where} while {self.phase}", side=side)
 

@@ -8,6 +8,7 @@ from intents.english.phrases.complements import connector_end
 from intents.english.words import lexicon
 from intents.english.words.dictionary import is_english
 from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE
+from intents.english.words.measures import TIME_WORDS
 from intents.english.words.text import Text
 from intents.english.words.verbs import base_form, participle_base, verbs_at
 
@@ -128,10 +129,11 @@ def _is_subject(text: Text, at: int) -> bool:
 
 
 def _owns(text: Text, at: int) -> bool:
-    """Leo's ball; but: Leo's hungry."""
+    """Leo's ball, a minute's wait; but: Leo's hungry."""
     return text.word(at) == "'s" and (
         text.name_at(at + 1) is not None or not text.word(at + 1).isalpha()
         or _states(text, at + 2) or text.word(at + 1) in lexicon.COLORS
+        or text.word(at - 1) in TIME_WORDS
     )  # fmt: skip
 
 

@@ -413,6 +413,8 @@ def _next_in_list(text: Text, at: int, last: NounPhrase) -> NounPhrase | None:
     start += start > at and text.word(start) == "also"
     if start == at or ends_clause(text, start) or last.noun in ("here", "there", "operator"):
         return None
+    if text.word(start) in ("any", "anything") and text.word(start + 1) == "but":
+        return None  # a cup, anything but the red one: that is one cup
     named = text.name_at(start)
     if verbs_at(text.words, start) and not named:
         return None

@@ -21,8 +21,9 @@ from intents.goals import Superlative
 _SOMEBODY = lexicon.words("i we he she they you somebody someone")
 _EXCEPT = lexicon.phrases(
     "except,except for,apart from,other than,excluding,save for,aside from,"
-    "with the exception of,not counting,leaving out"
+    "with the exception of,not counting,leaving out,different from,different to,different than"
 )
+_IS = lexicon.words("is are was were")
 _LEFT_RIGHT = {"left": "leftmost", "right": "rightmost"}
 _RELATIVE = lexicon.words("that which who whose")
 
@@ -256,7 +257,7 @@ def _modifier(text: Text, phrase: NounPhrase, at: int) -> int | None:
     if most:
         phrase.superlative, end = most
         return end
-    behind = (_color_behind, _most_behind, _except, _aside, _at_its_side)
+    behind = (_color_behind, _most_behind, _except, denied, _aside, _at_its_side)
     aside = next((end for read in behind if (end := read(text, phrase, at))), None)
     if aside:
         return aside
@@ -295,7 +296,7 @@ def _most_behind(text: Text, phrase: NounPhrase, at: int) -> int | None:
 def _except(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """All pens *except the red ones*; every dish *but the bowl*."""
     start = text.phrase_end(_EXCEPT, at)
-    whatever = phrase.count == "all" or phrase.said in SOMETHING
+    whatever = phrase.count == "all" or phrase.said in SOMETHING or phrase.determiner == "any"
     if start is None and text.word(at) == "but" and whatever:
         start = at + 1
     thing = phrase.noun == "object" or phrase.name("object", "category")
@@ -306,6 +307,29 @@ def _except(text: Text, phrase: NounPhrase, at: int) -> int | None:
         return None
     phrase.without = inner
     return inner.end
+
+
+def denied(text: Text, phrase: NounPhrase, at: int) -> int | None:
+    """The cup that is *not red*; a mug *not on the table*; something that is *not a cup*."""
+    thing = phrase.noun in ("object", "one") or phrase.name("object", "category")
+    if text.word(at) != "not" or not thing or phrase.without or phrase.is_person:
+        return None
+    stated = text.word(at - 1) in _IS
+    first = at + 1
+    inner: NounPhrase | None = NounPhrase(first, first, noun="one", said="one", determiner="the")
+    end = _locative(text, inner, first)
+    if end is None and stated and text.word(first) in DETERMINERS:
+        inner = bare_phrase(text, first)
+        end = inner.end if inner and not (inner.is_person or inner.is_spot) else None
+    elif end is None and stated:
+        inner.color = text.index.colors.get(text.word(first))
+        inner.size = lexicon.SIZES.get(text.word(first))
+        end = first + 1 if inner.color or inner.size else None
+    goes_on = end is not None and text.word(end) in ("but", "or", "nor", "and")
+    if end is None or inner is None or (goes_on and not verbs_at(text.words, end + 1)):
+        return None
+    phrase.without = inner
+    return end
 
 
 def _equipped(text: Text, phrase: NounPhrase, at: int) -> int | None:

@@ -133,7 +133,8 @@ _NO_NOUN = (
 def is_content(text: Text, at: int) -> bool:
     """Whether a word can be part of a noun: no function word, number or sign."""
     word = text.word(at)
-    return word[0].isalpha() and word not in _NO_NOUN
+    apart = word in ("other", "different") and text.word(at + 1) in ("than", "from", "to")
+    return word[0].isalpha() and word not in _NO_NOUN and not apart
 
 
 _LOCATING = frozenset(phrase[0] for phrase in lexicon.LOCATIVES)

@@ -86,6 +86,10 @@ def _read_adjective(text: Text, phrase: NounPhrase, at: int) -> int | None:
         return at + 1
     if match:
         return None
+    if word in ("non", "not") and text.word(at + 1) in colors and is_content(text, at + 2):
+        named = colors[text.word(at + 1)]
+        phrase.without = NounPhrase(at, at + 2, noun="one", said="one", color=named)
+        return at + 2
     return _read_common_adjective(text, phrase, at)
 
 

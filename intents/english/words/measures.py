@@ -47,6 +47,7 @@ for _kind, _factor, _spellings in _TABLE:
         _UNITS[_spelling] = (_kind, _factor)
 NUMBER_WORDS = frozenset(_ONES) | frozenset(_TENS) | {"hundred", "thousand", "half", "dozen"}
 UNIT_WORDS = frozenset(_UNITS) - {"time", "times", "second", "x", "turn", "step", "circle", "min"}
+TIME_WORDS = frozenset(word for word, (kind, _) in _UNITS.items() if kind == "time")
 
 
 class Number(NamedTuple):

@@ -25,6 +25,7 @@ from intents.english.words.lexicon import (
 from intents.english.words.manners import Manner, manners
 from intents.english.words.measures import NUMBER_WORDS
 from intents.english.words.names import Match, NameIndex, index_of
+from intents.english.words.pauses import pauses_as_waits
 from intents.english.words.precise import plain_quantities
 from intents.english.words.repairs import repaired
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
@@ -134,7 +135,7 @@ class Text:
         ]  # fmt: skip
         corrected, alike = as_meant(corrected, self.index)
         self.corrections += alike
-        corrected = _wished(plain_quantities(repaired(corrected)))
+        corrected = _wished(pauses_as_waits(plain_quantities(repaired(corrected))))
         corrected = all_there_is(corrected)
         corrected = plainly_asked(without_titles(corrected, self.index), self.index)
         self.manners: list[Manner]

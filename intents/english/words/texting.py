@@ -174,16 +174,20 @@ def _undone(word: str, after: list[str], index: NameIndex) -> tuple[str, ...] | 
 
 
 def _not_drawn_out(word: str, index: NameIndex) -> str:
-    """A word whose letters are drawn out, with one or two of each."""
+    """A word whose letters are drawn out, with one or two of each.
+
+    Of words that are only English the one with two is meant: "mooon" is the moon, no mon.
+    """
     runs = len(_DRAWN_OUT.findall(word))
     if not runs or runs > _MOST_DRAWN_OUT:
         return ""
+    every: list[str] = []
     for lengths in product((1, 2), repeat=runs):
         left = iter(lengths)
-        tried = _DRAWN_OUT.sub(lambda run, left=left: run.group(1) * next(left), word)
-        if _is_word(tried, index) or tried in _SHORT_FORMS or tried in FIRST_WORDS:
-            return tried
-    return ""
+        every.append(_DRAWN_OUT.sub(lambda run, left=left: run.group(1) * next(left), word))
+    known = (index.words, _SHORT_FORMS, FIRST_WORDS, lexicon.FUNCTION_WORDS)
+    said = (one for one in every if any(one in words for words in known))
+    return next(said, "") or next(filter(is_english, reversed(every)), "")
 
 
 def _is_word(word: str, index: NameIndex) -> bool:

@@ -113,6 +113,17 @@ def test_who_leaves_while_the_executive_is_replaced_leaves(tmp_path: Path):
         assert terminal.process.returncode == 0
 
 
+@pytest.mark.slow
+def test_a_term_while_the_executive_is_replaced_ends_the_prompt_that_comes_back(tmp_path: Path):
+    run = tmp_path / "run"
+    with Terminal("repl", "--world", "empty", "--run-dir", str(run), folder=tmp_path) as terminal:
+        assert terminal.shows("`help` shows what can be said")
+        _kill(terminal)
+        terminal.process.send_signal(signal.SIGTERM)
+        assert eventually(lambda: terminal.process.poll() is not None)
+        assert terminal.shows("what was open is stopped")
+
+
 def _kill(terminal: Terminal) -> None:
     first, *_ = executives(terminal.process.pid)
     before = terminal.text.count("killed by SIGKILL")

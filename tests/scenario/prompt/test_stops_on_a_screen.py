@@ -78,7 +78,13 @@ def test_ctrl_z_is_answered_and_the_next_stop_acts(evening: Evening):
     assert evening.shows("stand | ")
 
 
-@pytest.mark.parametrize("pending", ["\x11", "\x1d", "\x18", "go to the k\t"])
+def test_keys_that_hold_a_screen_leave_nothing_in_the_line(evening: Evening):
+    evening.press("watch\x13 bo\x11dy")
+    assert eventually(lambda: evening.line == "> watch body"), evening.text
+    evening.press(CTRL_U)
+
+
+@pytest.mark.parametrize("pending", ["\x1d", "\x18", "go to the k\t"])
 def test_ctrl_c_leaves_a_pending_key_or_a_menu(evening: Evening, pending: str):
     evening.walk()
     evening.press(pending)

@@ -3,7 +3,7 @@
 import pytest
 from hotel_words import assert_means_the_same, heard
 
-from intents.outcomes import Goals
+from intents.outcomes import Goals, Refusal
 
 
 @pytest.mark.parametrize(
@@ -70,3 +70,11 @@ def test_a_figure_that_counts_is_no_word(said: str) -> None:
 @pytest.mark.parametrize("said", ["bring the book I am reading", "fetch the cap she is wearing"])
 def test_what_describes_a_thing_is_no_remark(said: str) -> None:
     assert not isinstance(heard(said), Goals)
+
+
+def test_what_is_drawn_out_and_not_known_has_two_letters_of_it() -> None:
+    outcome = heard("go to the mooon")
+    assert isinstance(outcome, Refusal)
+    assert "“moon”" in outcome.reason
+    outcome = heard("waaave to meee")
+    assert isinstance(outcome, Goals)

@@ -27,11 +27,34 @@ def test_to_go_on_asks_for_what_was_asked_for(tmp_path: Path, asked: Eval):
     assert again == replace(asked, resume=tmp_path)
 
 
-def test_more_seeds_are_more_runs_and_a_choice_is_a_choice(tmp_path: Path):
+def test_more_seeds_are_more_runs(tmp_path: Path):
     keep(tmp_path, WAVES)
     assert as_before(Eval(resume=tmp_path, seeds=20)).seeds == 20
-    assert as_before(Eval(resume=tmp_path, missions=["nod"])).missions == ["nod"]
+    again = Eval(resume=tmp_path, missions=["wave"], seeds=3)
+    assert as_before(again) == again
     assert as_before(Eval(seeds=1)) == Eval(seeds=1)
+
+
+@pytest.mark.parametrize(
+    ("asked", "now", "words"),
+    [
+        (WAVES, Eval(missions=["nod"]), "are of wave, not of nod"),
+        (WAVES, Eval(tasks=[Path("b.yaml")]), "are of none, not of b.yaml"),
+        (WAVES, Eval(missions=["wave"], faults="shoved hard"), "not of shoved hard"),
+        (
+            Eval(tasks=[Path("a.yaml")]),
+            Eval(tasks=[Path("b.yaml")]),
+            "are of a.yaml, not of b.yaml",
+        ),
+        (Eval(homes="flat:7"), Eval(homes="flat:8"), "are of flat:7, not of flat:8"),
+        (Eval(), Eval(missions=["nod"]), "are of none, not of nod"),
+    ],
+)
+def test_results_of_something_else_are_not_gone_on_with(tmp_path, asked, now, words):
+    keep(tmp_path, asked)
+    with pytest.raises(ConfigError, match=words) as refused:
+        as_before(replace(now, resume=tmp_path))
+    assert f"humanoid eval --resume {tmp_path}" in str(refused.value)
 
 
 @pytest.mark.parametrize("text", ["[", "{}}", '{"seeds": 0}', '{"seeds": 1e99}', '{"missions": 3}'])

@@ -6,18 +6,21 @@ import pytest
 from msgspec.structs import replace
 
 from benchmarks.intents.endpoint import Reply, serving
-from executive.blackboard import WORLD, Blackboard
+from executive.blackboard import HELD, WORLD, Blackboard
 from executive.meaning.handlers.steps import to_look_over
 from executive.meaning.identify import Scene
 from executive.meaning.knowledge import Knowledge
-from executive.meaning.request import Refused, Understood, request, unable
+from executive.meaning.request import Refused, Understood, meant, request, unable
 from executive.skills.inspect import InspectParams
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
-from executive.trees.parts import Branch, errands
+from executive.trees.parts import Branch, Settle, errands, walk
 from intents import goals
+from intents.grounding import Entity
 from intents.language_model import Endpoint, LanguageModel
 from intents.outcomes import Question
+from intents.state import RobotState
+from robot.failures import Failure
 from robot.messages import Track, WorldState
 from robot.se3 import SE3
 from tests.fakes.worlds import WHERE, world_map
@@ -46,6 +49,8 @@ def refusal(text: str) -> Refused:
             "put the red cup on the table",
             ["pick up the red cup", "put the red cup on the table"],
         ),
+        ("pick up the cup that is not red", ["pick up the blue cup"]),
+        ("look at a cup that isn't on the table", ["look around", "look at the red cup"]),
         ("take the red cup from the table", ["find the red cup", "pick up the red cup"]),
         ("go to the kitchen and then squat", ["go to the kitchen", "squat for 3 s"]),
         (
@@ -450,3 +455,45 @@ def test_what_is_counted_in_a_room_is_in_it():
     *_, say = errands(outcome.task)
     assert callable(say.params)
     assert say.params(with_things_on_the_table({})).text == "I see 0 cups in the kitchen."
+
+
+def board_with(
+    *, held: dict[str, str] | None = None, **things: tuple[float, float, float]
+) -> Blackboard:
+    tracks = tuple(Track(id=name, X_WO=SE3(p_WO), seen_s=0.0) for name, p_WO in things.items())
+    board = Blackboard()
+    writer = board.claim(WORLD.writer)
+    world = WorldState(stamp_s=0.0, X_WN=SE3(), X_WB=SE3(), fix_age_s=0.0, tracks=tracks)
+    writer.set(WORLD, world)
+    writer.set(HELD, held or {})
+    return board
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["bring me the bottle from the table", "pick up a bottle on the table",
+     "put the bottle that is on the table on the lower shelf"],
+)  # fmt: skip
+def test_a_thing_is_taken_from_where_it_was_said_to_be_and_from_nowhere_else(text: str):
+    outcome = request(text, WHERE)
+    assert isinstance(outcome, Understood)
+    (there,) = [part for _, part in walk(outcome.task) if isinstance(part, Settle)]
+    assert there.looks == ()
+    assert there.question(board_with(bottle=(2.0, 0.0, 0.75))) == ("bottle",)
+    held = board_with(held={"left": "bottle"})
+    assert there.question(held) == ("bottle",)
+    away = there.question(board_with(bottle=(-2.0, 0.0, 0.9)))
+    assert isinstance(away, Failure)
+    assert away.cause.endswith("on the table; the green bottle is on the upper shelf")
+    assert away.suggestion == "say it without “on the table”"
+
+
+def test_the_place_that_was_said_is_looked_at_before_it_is_denied():
+    bottle = Entity(id="bottle", name="bottle", at="upper shelf", p_WO=(-2.0, 0.0, 0.9))
+    entities = [one for one in WHERE.knowledge.entities() if one.id != "bottle"]
+    state = RobotState(entities=(*entities, bottle))
+    goal = goals.Pick(object=goals.ObjectQuery(name="bottle", at="table"))
+    outcome = meant("take it from there", (goal,), WHERE, state=state)
+    assert isinstance(outcome, Understood)
+    (there,) = [part for _, part in walk(outcome.task) if isinstance(part, Settle)]
+    assert [look.name for look in there.looks] == ["look over the table"]

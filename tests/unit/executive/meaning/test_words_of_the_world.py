@@ -277,7 +277,8 @@ def test_fewer_than_asked_for_are_not_enough():
 
 
 def test_what_only_one_thing_can_be_needs_no_looking():
-    assert not parts("bring the red mug on the counter to the table", Settle)
+    (there,) = parts("bring the red mug on the counter to the table", Settle)
+    assert not there.looks
 
 
 def test_what_is_known_of_all_is_not_looked_for_again():

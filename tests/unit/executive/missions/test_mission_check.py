@@ -705,3 +705,17 @@ def test_a_world_that_resembles_none_is_told_with_what_needs_no_world(tmp_path):
     with pytest.raises(ConfigError) as refused:
         check(path)
     assert [problem.line for problem in refused.value.problems] == [2, 3]
+
+
+@pytest.mark.parametrize(
+    ("slots", "words"),
+    [
+        ("{mode: one_leg, side: middle}", "(valid: left, right)"),
+        ("{mode: one_leg, side: forward}", "(valid: left, right)"),
+        ("{mode: lean, side: middle}", "(valid: backward, forward, left, right)"),
+        ("{mode: squat, side: left}", "side: 'left' means nothing here (leave it out)"),
+    ],
+)
+def test_the_sides_are_those_of_the_posture(write, slots: str, words: str):
+    (problem,) = problems(write(mission(f"  - balance: {slots}\n")))
+    assert words in problem

@@ -5,7 +5,10 @@ import math
 import pytest
 
 from executive.skills.balance import BalanceParams
+from executive.skills.gesture import GestureParams
 from executive.skills.look import LookParams
+from executive.skills.navigate import NavigateParams
+from executive.skills.pick import PickParams
 from executive.skills.say import SayParams
 from executive.skills.search import SearchParams
 from executive.skills.stop import StopParams
@@ -141,3 +144,28 @@ def test_stop_stands(stage):
     assert stage.run(StopParams()).status == "succeeded"
     assert [type(command) for command in stage.puppet.sent] == [Stand]
     assert stage.puppet.mode == "stand"
+
+
+@pytest.mark.parametrize(
+    "wanted",
+    [
+        GestureParams(kind="nod"),
+        GestureParams(kind="wave"),
+        BalanceParams(mode="squat"),
+        LookParams(place_id="counter"),
+        NavigateParams(place_id="door"),
+        PickParams(object_id="cup"),
+    ],
+)
+def test_who_lies_already_does_not_fall_again(stage, wanted):
+    stage.puppet.mode = "fallen"
+    reason = stage.run(wanted).failure
+    assert reason.code == "fallen"
+    assert reason.cause == "the robot lies on the floor"
+
+
+def test_who_falls_says_what_it_was_doing(stage):
+    stage.run(GestureParams(kind="nod"), until_phase="nodding")
+    stage.puppet.mode = "fallen"
+    reason = stage.skill.step(stage.puppet.time_s).failure
+    assert reason.cause == "the robot fell while nodding"

@@ -206,3 +206,36 @@ def test_what_was_just_asked_for_now_is_what_is_cancelled(shell: Shell):
     shell.line("now go to the shelf")
     shell.line("cancel")
     assert eventually(lambda: last_words(shell) == ["counter", "cabinet"])
+
+
+@pytest.mark.parametrize("text", ["not the red cup, the blue one", "the blue cup, not the red one"])
+def test_a_job_that_waits_is_corrected_by_the_name_of_what_it_is_about(shell: Shell, text: str):
+    begin(shell, "walk to the shelf", "bring me the red cup", "wave")
+    shell.line(text)
+    assert "Instead of “bring me the red cup”." in said
+    shell.line("yes")
+    assert eventually(
+        lambda: open_jobs(shell) == ["walk to the shelf", "bring the blue cup to you", "wave"]
+    )
+
+
+def test_a_job_that_waits_is_corrected_where_the_last_one_cannot_be_meant(shell: Shell):
+    begin(shell, "walk to the shelf", "bring me the red cup", "wave")
+    shell.line("no, the blue one")
+    assert "Instead of “bring me the red cup”." in said
+    assert "walk to the shelf" in open_jobs(shell)
+
+
+def test_what_is_answered_corrects_what_was_asked_about(shell: Shell):
+    begin(shell, "walk to the shelf", "bring me the bottle", "wave")
+    shell.line("not the bottle, the cup")
+    shell.line("the blue one")
+    assert "Instead of “bring me the bottle”." in said
+    assert "bring me the bottle" not in open_jobs(shell)
+    assert "wave" in open_jobs(shell)
+
+
+def test_what_is_remarked_on_is_told_once(shell: Shell):
+    shell.line("nod quickly")
+    assert said[0] == "  I move at my own pace: “quickly” changes nothing."
+    assert sum("I move at my own pace" in one for one in said) == 1

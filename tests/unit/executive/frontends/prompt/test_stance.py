@@ -5,10 +5,14 @@ from typing import cast
 
 import pytest
 
+from executive.blackboard import HEALTH
 from executive.engine.estop import EmergencyStop
 from executive.engine.executive import Executive
 from executive.frontends.prompt.stance import standing
 from executive.frontends.prompt.view import View
+from executive.health import Level
+from tests.fakes.puppet_shell import puppet_shell
+from tests.fakes.waiting import eventually
 
 
 def executive_with(mode: str | None, estop: EmergencyStop | None = None) -> Executive:
@@ -38,3 +42,20 @@ def test_it_says_that_the_emergency_stop_is_on() -> None:
     estop = EmergencyStop()
     estop.press()
     assert "emergency stop" in standing(executive_with("stand", estop), View())
+
+
+def test_an_emergency_stop_is_shown_as_it_is_while_time_stands_still(tmp_path):
+    said: list[str] = []
+    with puppet_shell(tmp_path, said, kind="fast") as shell:
+        robot = shell.robot
+        shell.line("estop")
+        assert eventually(lambda: "emergency stop" in robot.view.unwell)
+        shell.line("estop release")
+        shell.line("nod")  # is refused, and the tick that refuses it sees the stop
+        robot.wait()
+        assert robot.executive.board.read(HEALTH).failure is not None
+        shell.line("estop reset")
+        assert eventually(lambda: robot.view.level is Level.OK)
+        said.clear()
+        shell.line("how are you?")
+        assert not any("emergency stop" in one for one in said)

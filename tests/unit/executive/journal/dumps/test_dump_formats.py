@@ -61,6 +61,17 @@ def test_nothing_is_at_work_at_the_end_of_a_run_that_was_stopped():
     assert not [one for root in snapshot(run) for _, one in root.walk() if one.state == "running"]
 
 
+def test_what_was_given_up_at_once_was_stopped():
+    rig = Recorded({PickParams: [Script(steps=20, stop_steps=2)]})
+    rig.begin(PICK).tick(3)
+    rig.executive.abandon(None, rig.now_s)
+    run = rig.read()
+    come_to_rest(run)
+    shown = [one for root in snapshot(run) for _, one in root.walk()]
+    assert [one.name for one in shown if one.state == "stopped"] == ["task", "pick"]
+    assert not [one for one in shown if one.state == "running"]
+
+
 def test_what_a_run_that_was_cut_off_was_at_stays_at_work():
     rig = Recorded({PickParams: [Script(steps=20)]})
     rig.begin(PICK).tick(3)
