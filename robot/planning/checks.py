@@ -32,6 +32,7 @@ STEP_M = 0.05
 SWAY_CLEARANCE_M = 0.005
 """A body that steps sways by so much to both sides: as measured at the pelvis."""
 END = "the end of its reach"
+CHEST_TURNS_RAD = (0.5, 0.0, 1.0)
 
 
 class Checker:
@@ -119,24 +120,41 @@ class Checker:
         at the stance.
         """
         upright = reach.trunks_of(self.body, self.side, self.candidate, upright=True)
-        x, y, yaw = self.candidate.stance_of(0)
-        forward = np.array([np.cos(yaw), np.sin(yaw), 0.0])
-        ahead = float((target.p[0, :2] - np.array([x, y])) @ forward[:2])
-        over, how = self.lean.last, self._reaching.raising
-        raises, turns = (how.over_up_m, how.over_turns_rad) if over else (how.up_m, (0.0,))
-        up_m, turn = (np.array(part) for part in zip(*product(raises, turns), strict=True))
-        row = np.zeros(len(turn), dtype=int)
-        R = reach.rotations_z(turn) @ target.R[row]
         touch: str | None = END
-        for pull in how.over_back_m if over else how.back_m:
-            back = (max(0.0, ahead - self._reaching.upright_m) + pull) * forward
-            p = target.p[0] - back + np.outer(up_m, [0.0, 0.0, 1.0])
-            targets, q0 = Targets(R, p), np.tile(q_near, (len(p), 1))
+        for targets in self._raised_targets(target):
+            q0, row = np.tile(q_near, (len(targets.p), 1)), np.zeros(len(targets.p), dtype=int)
             reached = reach.reach(self.arm, upright.take(row), targets, q0, iterations=16)
             touch, q_ready = self._raised(reached.q[reached.ok], scene, finger)
             if q_ready is not None:
                 return None, q_ready
         return touch, None
+
+    def _raised_targets(self, target: Targets) -> Iterator[Targets]:
+        """Raised hands before `target`, the likeliest first: pulled back by more and more.
+
+        Beside an edge that is along it: there the hand is first brought before the chest.
+        """
+        x, y, yaw = self.candidate.stance_of(0)
+        forward = np.array([np.cos(yaw), np.sin(yaw), 0.0])
+        over, how = self.lean.last, self._reaching.raising
+        raises, turns = (how.over_up_m, how.over_turns_rad) if over else (how.up_m, (0.0,))
+        up_m, turn = (np.array(part) for part in zip(*product(raises, turns), strict=True))
+        R = reach.rotations_z(turn) @ target.R[np.zeros(len(turn), dtype=int)]
+        up = np.outer(up_m, [0.0, 0.0, 1.0])
+        if self.lean.hand_rad:
+            sign = 1.0 if self.side == "left" else -1.0
+            ahead, aside, _ = self._reaching.raised_hand_m
+            X_WS = SE3.from_xy_yaw(x, y, yaw)
+            p = np.array(X_WS.apply((ahead, sign * aside, float(target.p[0, 2]))))
+            outwards = yaw - float(self.candidate.heading[0]) + sign * np.array(CHEST_TURNS_RAD)
+            rows = np.repeat(np.arange(len(outwards)), len(raises))
+            chest = reach.rotations_z(outwards[rows]) @ target.R[np.zeros(len(rows), dtype=int)]
+            yield Targets(chest, p + np.outer(np.tile(raises, len(outwards)), [0.0, 0.0, 1.0]))
+        ahead = float((target.p[0, :2] - np.array([x, y])) @ forward[:2])
+        for pull in how.over_back_m if over else how.back_m:
+            yield Targets(
+                R, target.p[0] - (max(0.0, ahead - self._reaching.upright_m) + pull) * forward + up
+            )
 
     def _raised(
         self, raised: Array, scene: Scene, finger: float

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
@@ -51,6 +52,23 @@ def posture_of(lean: Lean, side: Side) -> BodyPosture:
     return BodyPosture(
         height_m=lean.base_height_m, pitch_rad=lean.pitch_rad, yaw_rad=sign * lean.yaw_rad
     )
+
+
+class Stage(NamedTuple):
+    """Leans that are tried together, each stage where those before it lead nowhere.
+
+    Attributes:
+        last: whether they reach over an edge.
+        arm: the posture that the inverse kinematics begin in; empty: the robot's own.
+    """
+
+    last: bool
+    arm: str
+
+    @classmethod
+    def of(cls, lean: Lean) -> Stage:
+        """Of a lean."""
+        return cls(lean.last, lean.arm)
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +136,7 @@ def propose(
     walk_cost_per_m: float,
     people: Array,
     seed: int,
-    last: bool = False,
+    stage: Stage,
 ) -> tuple[Candidates, int]:
     """Candidates that can be stood on and stepped in to, and how many there were before.
 
@@ -134,7 +152,7 @@ def propose(
         walk_cost_per_m: cost of walking a metre to the stance.
         people: circles (x, y, radius) that hands keep away from where they can, shape (n, 3).
         seed: of the spread.
-        last: in the postures that are tried last, instead of the others.
+        stage: of the search: which leans.
     """
     stances: list[Array] = []
     headings: list[Array] = []
@@ -143,7 +161,7 @@ def propose(
     for side, (i, lean), (j, option), (k, reference) in product(
         sides, enumerate(reaching.leans), enumerate(options), enumerate(references)
     ):
-        if lean.last != last:
+        if Stage.of(lean) != stage or reference[2] < lean.from_m:
             continue
         _around(option, reference, side, lean, reaching, into=(stances, headings, costs))
         kinds.append(np.tile([j, k, i, int(side == "left")], (len(costs[-1]), 1)))
@@ -157,7 +175,7 @@ def propose(
     standoffs = _Standoffs(floor, start, radius_m, reaching)
     kept: list[Indices] = []
     backs: list[Array] = []
-    left = np.array([lean.quota if lean.last == last else 0 for lean in reaching.leans])
+    left = np.array([lean.quota if Stage.of(lean) == stage else 0 for lean in reaching.leans])
     share = np.repeat((OPTION_SHARE * left / len(options)).astype(int), len(options))
     left -= share.reshape(len(reaching.leans), -1).sum(axis=1)
     for first in range(0, total, CHUNK):
@@ -218,10 +236,14 @@ def _around(
     """Stances (n, 3), hand headings (n,) and costs (n,) of one combination, appended to lists."""
     sign = 1.0 if side == "left" else -1.0
     turns_rad = LAST_TURNS_RAD if lean.last else TURNS_RAD
-    grid = np.array(list(product(lean.ahead_m, lean.aside_m or reaching.aside_m, turns_rad)))
-    inward = reaching.inward_rad - reaching.inward_rad_m * grid[:, 1]
-    natural = -sign * inward * (0.5 if lean.pitch_rad else 1.0)
-    beta = natural + grid[:, 2]
+    asides_m = lean.aside_m or reaching.aside_m
+    grid = np.array(list(product(lean.ahead_m, asides_m, lean.hand_rad or turns_rad)))
+    if lean.hand_rad:
+        beta = sign * grid[:, 2]
+        grid[:, 2] = 0.0
+    else:
+        inward = reaching.inward_rad - reaching.inward_rad_m * grid[:, 1]
+        beta = -sign * inward * (0.5 if lean.pitch_rad else 1.0) + grid[:, 2]
     if option.headings is None:
         repeats = HEADINGS
         yaw = np.repeat(numerics.even(0.0, 2 * math.pi, HEADINGS + 1)[:-1], len(beta))
