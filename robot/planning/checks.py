@@ -33,6 +33,7 @@ SWAY_CLEARANCE_M = 0.005
 """A body that steps sways by so much to both sides: as measured at the pelvis."""
 END = "the end of its reach"
 CHEST_TURNS_RAD = (0.5, 0.0, 1.0)
+"""Of a hand before the chest, from straight ahead, outwards."""
 
 
 class Checker:
@@ -165,9 +166,27 @@ class Checker:
             for q in raised:
                 touch = self._sweep(scene, q, finger, clearance)
                 touch = touch or self._leaning(scene, q, finger)
+                touch = touch or (self._face(scene, q) if self.lean.last else None)
                 if touch is None:
                     return None, q
         return touch, None
+
+    def _face(self, scene: Scene, q: Array) -> str | None:
+        """What an arm that is up beside the head touches as the head looks elsewhere."""
+        model = self.body.model
+        head = self.body.description.indices("head")
+        looks = [(model.lower_rad[k], 0.5 * model.lower_rad[k], self.body.nominal[k], 0.5 * model.upper_rad[k], model.upper_rad[k]) for k in head]
+        motors = self.body.nominal.copy()
+        motors[self.arm.motors] = q
+        scene.set_clearance(0.0)
+        for look in product(*looks):
+            motors[head] = look
+            scene.pose(SE3.from_xy_yaw(*self.candidate.stance_of(0)) @ self._standing(0.0)[0], motors)
+            scene.update()
+            touches = [t for t in scene.touches(scene.arm_geoms(self.side)) if t.second not in scene.solids]
+            if touches:
+                return touches[0].second
+        return None
 
     def swaying(self, q_ready: Array, q_leaving: Array) -> str | None:
         """What arm or body touch as the steps in and out sway the body; the hand is left out."""
