@@ -32,8 +32,7 @@ STEP_M = 0.05
 SWAY_CLEARANCE_M = 0.005
 """A body that steps sways by so much to both sides: as measured at the pelvis."""
 END = "the end of its reach"
-CHEST_TURNS_RAD = (0.5, 0.0, 1.0)
-"""Of a hand before the chest, from straight ahead, outwards."""
+BESIDE_SAMPLES, BESIDE_SPREADS_RAD = 100, (0.3, 0.5, 0.8)
 
 
 class Checker:
@@ -106,14 +105,16 @@ class Checker:
 
     def ready(self, target: Targets, q_near: Array) -> tuple[str | None, Array | None]:
         """Joints with the hand raised before `target`, free on the way from the standoff."""
-        return self._raised_before(target, q_near, *self._before())
+        laden = self.problem.kind == "place"
+        return self._raised_before(target, q_near, *self._before(), laden=laden)
 
     def away(self, target: Targets, q_near: Array) -> tuple[str | None, Array | None]:
         """Joints with the hand raised before `target`, free on the way back to the standoff."""
-        return self._raised_before(target, q_near, *self._after())
+        laden = self.problem.kind == "pick"
+        return self._raised_before(target, q_near, *self._after(), laden=laden)
 
     def _raised_before(
-        self, target: Targets, q_near: Array, scene: Scene, finger: float
+        self, target: Targets, q_near: Array, scene: Scene, finger: float, *, laden: bool
     ) -> tuple[str | None, Array | None]:
         """Joints with the hand raised before `target`, free between stance and standoff.
 
@@ -122,7 +123,9 @@ class Checker:
         """
         upright = reach.trunks_of(self.body, self.side, self.candidate, upright=True)
         touch: str | None = END
-        for targets in self._raised_targets(target):
+        if self.lean.hand_rad:
+            return self._raised(self._beside(target, q_near, laden=laden), scene, finger)
+        for targets in self._pulled(target):
             q0, row = np.tile(q_near, (len(targets.p), 1)), np.zeros(len(targets.p), dtype=int)
             reached = reach.reach(self.arm, upright.take(row), targets, q0, iterations=16)
             touch, q_ready = self._raised(reached.q[reached.ok], scene, finger)
@@ -130,32 +133,43 @@ class Checker:
                 return None, q_ready
         return touch, None
 
-    def _raised_targets(self, target: Targets) -> Iterator[Targets]:
-        """Raised hands before `target`, the likeliest first: pulled back by more and more.
-
-        Beside an edge that is along it: there the hand is first brought before the chest.
-        """
+    def _pulled(self, target: Targets) -> Iterator[Targets]:
+        """Raised hands before `target`, pulled back by more and more."""
         x, y, yaw = self.candidate.stance_of(0)
         forward = np.array([np.cos(yaw), np.sin(yaw), 0.0])
+        ahead = float((target.p[0, :2] - np.array([x, y])) @ forward[:2])
         over, how = self.lean.last, self._reaching.raising
         raises, turns = (how.over_up_m, how.over_turns_rad) if over else (how.up_m, (0.0,))
         up_m, turn = (np.array(part) for part in zip(*product(raises, turns), strict=True))
         R = reach.rotations_z(turn) @ target.R[np.zeros(len(turn), dtype=int)]
         up = np.outer(up_m, [0.0, 0.0, 1.0])
-        if self.lean.hand_rad:
-            sign = 1.0 if self.side == "left" else -1.0
-            ahead, aside, _ = self._reaching.raised_hand_m
-            X_WS = SE3.from_xy_yaw(x, y, yaw)
-            p = np.array(X_WS.apply((ahead, sign * aside, float(target.p[0, 2]))))
-            outwards = yaw - float(self.candidate.heading[0]) + sign * np.array(CHEST_TURNS_RAD)
-            rows = np.repeat(np.arange(len(outwards)), len(raises))
-            chest = reach.rotations_z(outwards[rows]) @ target.R[np.zeros(len(rows), dtype=int)]
-            yield Targets(chest, p + np.outer(np.tile(raises, len(outwards)), [0.0, 0.0, 1.0]))
-        ahead = float((target.p[0, :2] - np.array([x, y])) @ forward[:2])
         for pull in how.over_back_m if over else how.back_m:
-            yield Targets(
-                R, target.p[0] - (max(0.0, ahead - self._reaching.upright_m) + pull) * forward + up
-            )
+            back = (max(0.0, ahead - self._reaching.upright_m) + pull) * forward
+            yield Targets(R, target.p[0] - back + up)
+
+    def _beside(self, target: Targets, q_near: Array, *, laden: bool) -> Array:
+        """Joints with the hand raised beside an edge, the nearest to `q_near` first, shape (n, k).
+
+        Back along the feet's heading is along the edge there, and the way up is narrow: they are
+        sampled. A hand that holds something keeps its tilt.
+        """
+        rng = np.random.default_rng(0)
+        spread = np.repeat(BESIDE_SPREADS_RAD, BESIDE_SAMPLES)[:, None]
+        q = q_near + spread * rng.standard_normal((len(spread), len(q_near)))
+        q = np.clip(q, self.arm.lower, self.arm.upper)
+        upright = reach.trunks_of(self.body, self.side, self.candidate, upright=True)
+        R, p = self.arm.chain.forward(q)
+        R, p = upright.R_ST @ R, p @ upright.R_ST[0].T + upright.p_ST
+        q = q[p[:, 2] > target.p[0, 2]]
+        if laden:
+            R, p = R[p[:, 2] > target.p[0, 2]], p[p[:, 2] > target.p[0, 2]]
+            heading = np.arctan2(R[:, 1, 0], R[:, 0, 0]) + upright.stance[0, 2]
+            level = reach.rotations_z(-self.candidate.heading) @ target.R
+            p = p @ reach.rotations_z(upright.stance[:, 2])[0].T + np.append(upright.stance[0,:2], 0.0)
+            row = np.zeros(len(q), dtype=int)
+            found = reach.reach(self.arm, upright.take(row), Targets(reach.rotations_z(heading) @ level, p), q)
+            q = found.q[found.ok]
+        return q[np.argsort(np.linalg.norm(q - q_near, axis=1), kind="stable")]
 
     def _raised(
         self, raised: Array, scene: Scene, finger: float

@@ -239,9 +239,11 @@ def _around(
     asides_m = lean.aside_m or reaching.aside_m
     grid = np.array(list(product(lean.ahead_m, asides_m, lean.hand_rad or turns_rad)))
     if lean.hand_rad:
+        best_aside_m = float(np.mean(asides_m))
         beta = sign * grid[:, 2]
-        grid[:, 2] = 0.0
+        grid[:, 2] -= np.mean(lean.hand_rad)
     else:
+        best_aside_m = reaching.best_aside_m
         inward = reaching.inward_rad - reaching.inward_rad_m * grid[:, 1]
         beta = -sign * inward * (0.5 if lean.pitch_rad else 1.0) + grid[:, 2]
     if option.headings is None:
@@ -257,14 +259,15 @@ def _around(
     px = reference[0] + ch * option.offset[0] - sh * option.offset[1]
     py = reference[1] + sh * option.offset[0] + ch * option.offset[1]
     y = sign * aside
-    far = np.maximum(0.0, ahead - reaching.far_m) if lean.pitch_rad == 0.0 else 0.0
+    upright = lean.pitch_rad == 0.0 and not lean.hand_rad
+    far = np.maximum(0.0, ahead - reaching.far_m) if upright else 0.0
     into[0].append(np.stack([px - c * ahead + s * y, py - s * ahead - c * y, yaw], axis=1))
     into[1].append(heading)
     into[2].append(
         option.cost
         + lean.cost
         + FAR_COST_PER_M * far
-        + ASIDE_COST_PER_M * np.abs(aside - reaching.best_aside_m)
+        + ASIDE_COST_PER_M * np.abs(aside - best_aside_m)
         + TURN_COST_PER_RAD * np.abs(turn)
     )
 
