@@ -156,13 +156,15 @@ def test_what_was_taken_from_above_goes_on_a_high_board_when_taken_with_a_levell
 ) -> None:
     low = Shape(kind="box", size_m=(0.05, 0.17, 0.035))
     remote = on_table(-0.1, 0.2, shape=low)
+    board = BOARD[BOARDS_M[2]]
+    high = msgspec.structs.replace(board, X_WP=SE3((0.0, 0.0, 0.06)) @ board.X_WP)
     reached: dict[bool, bool] = {}
     for most_tilt_rad in (math.inf, 0.4):
         plan = pick(solver, surroundings(remote), most_tilt_rad=most_tilt_rad)
         assert isinstance(plan, PickPlan), plan
         assert plan.tilt_rad <= most_tilt_rad
         held = Held(id="cup", shape=low, X_GO=plan.X_OG.inverse())
-        put = place(solver, BOARD[BOARDS_M[2]], surroundings(), side=plan.side, held=held)
+        put = place(solver, high, surroundings(), side=plan.side, held=held)
         reached[plan.tilt_rad > 0.4] = isinstance(put, PlacePlan)
     assert reached == {True: False, False: True}
 
