@@ -216,6 +216,7 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         raised_hand_m: grasp point of a hand held out level, in S, of the left hand.
         step_in_m: lengths of the last straight steps before a stance, in the order of trying.
         arm_room_m: clearance of a standing place at which an arm can be raised freely.
+        over_room_m: the same for an arm that goes up and over an edge beside it.
         floor_m: what is lower lies on the floor: no stance brings a hand there.
         raise_within_m: how near the standoff the hand begins to be raised while the feet go on.
         steps_back_m: straight back, to get a hand out from among things: the first that is free.
@@ -239,6 +240,7 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     raised_hand_m: tuple[q.Offset, q.Offset, q.Offset]
     step_in_m: q.Several[q.Length]
     arm_room_m: q.Margin
+    over_room_m: q.Margin = 0.55
     floor_m: q.Length
     raise_within_m: q.Length
     steps_back_m: q.Several[q.Length]

@@ -173,6 +173,7 @@ def propose(
     cost = cost + JITTER * np.random.default_rng(seed).random(total)
     order = np.argsort(cost, kind="stable")
     standoffs = _Standoffs(floor, start, radius_m, reaching)
+    beside = np.array([bool(lean.hand_rad) for lean in reaching.leans])
     kept: list[Indices] = []
     backs: list[Array] = []
     left = np.array([lean.quota if Stage.of(lean) == stage else 0 for lean in reaching.leans])
@@ -185,7 +186,7 @@ def propose(
         clearance = floor.clearances_m(stance[rows, :2])
         cost[rows] += NARROW_COST_PER_M * np.maximum(0.0, reaching.roomy_m - clearance)
         rows = rows[clearance >= reaching.narrow_m]
-        back, tight = standoffs.lengths(stance[rows])
+        back, tight = standoffs.lengths(stance[rows], beside=beside[tags[rows, 2]])
         cost[rows[tight]] += TIGHT_COST
         rows, back = rows[back > 0.0], back[back > 0.0]
         sign = np.where(tags[rows, 3] == 1, 1.0, -1.0)
@@ -288,7 +289,8 @@ def _is_near(people: Array, points: Array) -> Mask:
 class _Standoffs:
     """Lengths of the last straight steps, from places that can be walked to.
 
-    A place with room for the arm is preferred to one that only has room for the body.
+    A place with room for the arm is preferred to one that only has room for the body; beside an
+    edge, one with room for an arm that goes up and over it.
     """
 
     def __init__(self, floor: Floor, start: Stance, radius_m: float, reaching: Reaching) -> None:
@@ -298,14 +300,15 @@ class _Standoffs:
         self._labels = floor.regions(radius_m)
         self._home = floor.home(self._labels, start[0], start[1])
 
-    def lengths(self, stance: Array) -> tuple[Array, Mask]:
+    def lengths(self, stance: Array, *, beside: Mask) -> tuple[Array, Mask]:
         """The first length that leads to such a place (0: none), and if it is tight, shape (n,)."""
         result = np.zeros(len(stance))
         tight = np.zeros(len(stance), dtype=bool)
         back = -np.stack([np.cos(stance[:, 2]), np.sin(stance[:, 2])], axis=1)
-        for room in (self._reaching.arm_room_m, self._radius):
+        for room in (self._reaching.over_room_m, self._reaching.arm_room_m, self._radius):
+            over = room == self._reaching.over_room_m
             for length in self._reaching.step_in_m:
-                rows = np.flatnonzero(result == 0.0)
+                rows = np.flatnonzero((result == 0.0) & (beside | (not over)))
                 at = stance[rows, :2] + length * back[rows]
                 label = self._floor.label_at(self._labels, at)
                 free = (label > 0) & ((label == self._home) if self._home else True)
