@@ -69,9 +69,7 @@ def do(*, thing: str, side: Side, height_m: float, seed: int) -> Outcome:
     low, high, why = 0, STEPS + 1, "the end of the search"
     while high - low > 1:
         step = (low + high) // 2
-        asked = request(
-            thing=thing, side=side, height_m=height_m, depth_m=STEP_M * step, seed=seed
-        )
+        asked = request(thing=thing, side=side, height_m=height_m, depth_m=STEP_M * step, seed=seed)
         begin = time.process_time()
         answer = solver.solve(asked)
         seconds.append(round(time.process_time() - begin, 3))
@@ -119,7 +117,9 @@ def main(
     things: Annotated[str, typer.Option(help="to take")] = ",".join(THINGS),
     seeds: Annotated[int, typer.Option(help="trials each, of each hand")] = 3,
     processes: Annotated[int, typer.Option("-j", help="at a time")] = 1,
-    name: Annotated[str, typer.Option(help="of the file of unfinished outcomes")] = "planned_depths",
+    name: Annotated[
+        str, typer.Option(help="of the file of unfinished outcomes")
+    ] = "planned_depths",
 ) -> None:
     """Try every height and thing with both hands."""
     wanted = [one.strip() for one in things.split(",")]

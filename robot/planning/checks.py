@@ -33,6 +33,7 @@ SWAY_CLEARANCE_M = 0.005
 """A body that steps sways by so much to both sides: as measured at the pelvis."""
 END = "the end of its reach"
 BESIDE_SAMPLES, BESIDE_SPREADS_RAD = 100, (0.3, 0.5, 0.8)
+"""Arms that are sampled about a pose beside an edge: so many, off by so much a joint, each."""
 
 
 class Checker:
@@ -157,18 +158,16 @@ class Checker:
         spread = np.repeat(BESIDE_SPREADS_RAD, BESIDE_SAMPLES)[:, None]
         q = q_near + spread * rng.standard_normal((len(spread), len(q_near)))
         q = np.clip(q, self.arm.lower, self.arm.upper)
-        upright = reach.trunks_of(self.body, self.side, self.candidate, upright=True)
-        R, p = self.arm.chain.forward(q)
-        R, p = upright.R_ST @ R, p @ upright.R_ST[0].T + upright.p_ST
-        q = q[p[:, 2] > target.p[0, 2]]
+        X_ST = self.body.standing(UPRIGHT, self.side).X_ST[self.side]
+        R_TG, p_TG = self.arm.chain.forward(q)
+        R_SG, p_SG = X_ST.rotation() @ R_TG, p_TG @ X_ST.rotation().T + np.array(X_ST.p)
+        high = p_SG[:, 2] > target.p[0, 2]
+        q = q[high]
         if laden:
-            R, p = R[p[:, 2] > target.p[0, 2]], p[p[:, 2] > target.p[0, 2]]
-            heading = np.arctan2(R[:, 1, 0], R[:, 0, 0]) + upright.stance[0, 2]
-            level = reach.rotations_z(-self.candidate.heading) @ target.R
-            p = p @ reach.rotations_z(upright.stance[:, 2])[0].T + np.append(upright.stance[0,:2], 0.0)
-            row = np.zeros(len(q), dtype=int)
-            found = reach.reach(self.arm, upright.take(row), Targets(reach.rotations_z(heading) @ level, p), q)
-            q = found.q[found.ok]
+            turn = np.arctan2(R_SG[high, 1, 0], R_SG[high, 0, 0]) - self.candidate.heading[0]
+            tilted = X_ST.rotation().T @ reach.rotations_z(turn) @ target.R
+            solved = self.arm.chain.solve(tilted, p_TG[high], q)
+            q = solved.q[solved.ok()]
         return q[np.argsort(np.linalg.norm(q - q_near, axis=1), kind="stable")]
 
     def _raised(
@@ -187,17 +186,18 @@ class Checker:
 
     def _face(self, scene: Scene, q: Array) -> str | None:
         """What an arm that is up beside the head touches as the head looks elsewhere."""
-        model = self.body.model
+        model, motors = self.body.model, self.body.nominal.copy()
         head = self.body.description.indices("head")
-        looks = [(model.lower_rad[k], 0.5 * model.lower_rad[k], self.body.nominal[k], 0.5 * model.upper_rad[k], model.upper_rad[k]) for k in head]
-        motors = self.body.nominal.copy()
+        lower, upper = model.lower_rad[head], model.upper_rad[head]
+        looks = np.stack([lower, 0.5 * lower, motors[head], 0.5 * upper, upper], axis=1).tolist()
         motors[self.arm.motors] = q
+        X_WB = SE3.from_xy_yaw(*self.candidate.stance_of(0)) @ self._standing(0.0)[0]
         scene.set_clearance(0.0)
         for look in product(*looks):
             motors[head] = look
-            scene.pose(SE3.from_xy_yaw(*self.candidate.stance_of(0)) @ self._standing(0.0)[0], motors)
+            scene.pose(X_WB, motors)
             scene.update()
-            touches = [t for t in scene.touches(scene.arm_geoms(self.side)) if t.second not in scene.solids]
+            touches = scene.touches(scene.arm_geoms(self.side), allowed=frozenset(scene.solids))
             if touches:
                 return touches[0].second
         return None
