@@ -18,7 +18,7 @@ from robot.se3 import SE3, Array
 WELL_M = 2.2
 """From further away things are noticed, but that there is nothing is not said [m]."""
 GRAZING_RAD = 0.04
-"""Least angle at which eyes that are above a surface look down on it."""
+"""Least angle at which eyes look down on a surface, unless they are level with what is on it."""
 ABOVE_M = 0.04
 """Half the height of a small thing: that far above the surface it must be in plain view [m]."""
 STANDING_M = 0.07
@@ -66,7 +66,7 @@ class LookedOver:
         points_W = self._points_W[near]
         off = eye - points_W
         slope = np.arcsin(np.clip(off[:, 2] / np.linalg.norm(off, axis=1), -1.0, 1.0))
-        well = (off[:, 2] < 0.0) | (slope > GRAZING_RAD)
+        well = (off[:, 2] < ABOVE_M) | (slope > GRAZING_RAD)
         well &= _in_plain_view(image, X_WC, points_W + np.array([0.0, 0.0, ABOVE_M]))
         self._seen_s[near[well]] = image.stamp_s
 

@@ -129,6 +129,11 @@ class Lean(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         quota: how many candidates of it a search looks at.
         base_height_m: of the base; None: as for walking.
         last: whether it is tried only where none of the others leads there.
+        arm: name of a posture with the arm up and over an edge: the inverse kinematics begin there;
+            empty: in those that they begin in otherwise.
+        hand_rad: headings of the hand from the feet's, outwards; empty: about as it points by
+            itself.
+        from_m: least height of what is handled that it is for.
     """
 
     pitch_rad: q.Angle = 0.0
@@ -139,6 +144,9 @@ class Lean(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     quota: q.Quota
     base_height_m: q.Length | None = None
     last: bool = False
+    arm: str = ""
+    hand_rad: q.Several[q.Angle] = ()
+    from_m: q.Offset = 0.0
 
 
 class Carrying(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -208,12 +216,11 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         raised_hand_m: grasp point of a hand held out level, in S, of the left hand.
         step_in_m: lengths of the last straight steps before a stance, in the order of trying.
         arm_room_m: clearance of a standing place at which an arm can be raised freely.
+        over_room_m: the same for an arm that goes up and over an edge beside it.
         floor_m: what is lower lies on the floor: no stance brings a hand there.
         raise_within_m: how near the standoff the hand begins to be raised while the feet go on.
         steps_back_m: straight back, to get a hand out from among things: the first that is free.
         narrow_m, roomy_m: least clearance of a stance's middle, and that which costs nothing.
-        over: names of postures with the arm up and over an edge: where the inverse kinematics
-            begins in the leans that are tried last.
         carrying: of things in the hand.
         deep_m: how far from the edge of a surface a hand picks up, by the surface's height, rising:
             (height, depth); for the words of a refusal. Empty: not measured.
@@ -233,12 +240,12 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     raised_hand_m: tuple[q.Offset, q.Offset, q.Offset]
     step_in_m: q.Several[q.Length]
     arm_room_m: q.Margin
+    over_room_m: q.Margin = 0.55
     floor_m: q.Length
     raise_within_m: q.Length
     steps_back_m: q.Several[q.Length]
     narrow_m: q.Margin
     roomy_m: q.Margin
-    over: q.Several[str] = ()
     carrying: Carrying
     deep_m: q.Several[tuple[q.Offset, q.Offset]] = ()
     surfaces_m: tuple[q.Offset, q.Offset] | None = None

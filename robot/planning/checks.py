@@ -32,6 +32,8 @@ STEP_M = 0.05
 SWAY_CLEARANCE_M = 0.005
 """A body that steps sways by so much to both sides: as measured at the pelvis."""
 END = "the end of its reach"
+BESIDE_SAMPLES, BESIDE_SPREADS_RAD = 100, (0.3, 0.5, 0.8)
+"""Arms that are sampled about a pose beside an edge: so many, off by so much a joint, each."""
 
 
 class Checker:
@@ -104,14 +106,16 @@ class Checker:
 
     def ready(self, target: Targets, q_near: Array) -> tuple[str | None, Array | None]:
         """Joints with the hand raised before `target`, free on the way from the standoff."""
-        return self._raised_before(target, q_near, *self._before())
+        laden = self.problem.kind == "place"
+        return self._raised_before(target, q_near, *self._before(), laden=laden)
 
     def away(self, target: Targets, q_near: Array) -> tuple[str | None, Array | None]:
         """Joints with the hand raised before `target`, free on the way back to the standoff."""
-        return self._raised_before(target, q_near, *self._after())
+        laden = self.problem.kind == "pick"
+        return self._raised_before(target, q_near, *self._after(), laden=laden)
 
     def _raised_before(
-        self, target: Targets, q_near: Array, scene: Scene, finger: float
+        self, target: Targets, q_near: Array, scene: Scene, finger: float, *, laden: bool
     ) -> tuple[str | None, Array | None]:
         """Joints with the hand raised before `target`, free between stance and standoff.
 
@@ -119,24 +123,52 @@ class Checker:
         at the stance.
         """
         upright = reach.trunks_of(self.body, self.side, self.candidate, upright=True)
+        touch: str | None = END
+        if self.lean.hand_rad:
+            return self._raised(self._beside(target, q_near, laden=laden), scene, finger)
+        for targets in self._pulled(target):
+            q0, row = np.tile(q_near, (len(targets.p), 1)), np.zeros(len(targets.p), dtype=int)
+            reached = reach.reach(self.arm, upright.take(row), targets, q0, iterations=16)
+            touch, q_ready = self._raised(reached.q[reached.ok], scene, finger)
+            if q_ready is not None:
+                return None, q_ready
+        return touch, None
+
+    def _pulled(self, target: Targets) -> Iterator[Targets]:
+        """Raised hands before `target`, pulled back by more and more."""
         x, y, yaw = self.candidate.stance_of(0)
         forward = np.array([np.cos(yaw), np.sin(yaw), 0.0])
         ahead = float((target.p[0, :2] - np.array([x, y])) @ forward[:2])
         over, how = self.lean.last, self._reaching.raising
         raises, turns = (how.over_up_m, how.over_turns_rad) if over else (how.up_m, (0.0,))
         up_m, turn = (np.array(part) for part in zip(*product(raises, turns), strict=True))
-        row = np.zeros(len(turn), dtype=int)
-        R = reach.rotations_z(turn) @ target.R[row]
-        touch: str | None = END
+        R = reach.rotations_z(turn) @ target.R[np.zeros(len(turn), dtype=int)]
+        up = np.outer(up_m, [0.0, 0.0, 1.0])
         for pull in how.over_back_m if over else how.back_m:
             back = (max(0.0, ahead - self._reaching.upright_m) + pull) * forward
-            p = target.p[0] - back + np.outer(up_m, [0.0, 0.0, 1.0])
-            targets, q0 = Targets(R, p), np.tile(q_near, (len(p), 1))
-            reached = reach.reach(self.arm, upright.take(row), targets, q0, iterations=16)
-            touch, q_ready = self._raised(reached.q[reached.ok], scene, finger)
-            if q_ready is not None:
-                return None, q_ready
-        return touch, None
+            yield Targets(R, target.p[0] - back + up)
+
+    def _beside(self, target: Targets, q_near: Array, *, laden: bool) -> Array:
+        """Joints with the hand raised beside an edge, the nearest to `q_near` first, shape (n, k).
+
+        Back along the feet's heading is along the edge there, and the way up is narrow: they are
+        sampled. A hand that holds something keeps its tilt.
+        """
+        rng = np.random.default_rng(0)
+        spread = np.repeat(BESIDE_SPREADS_RAD, BESIDE_SAMPLES)[:, None]
+        q = q_near + spread * rng.standard_normal((len(spread), len(q_near)))
+        q = np.clip(q, self.arm.lower, self.arm.upper)
+        X_ST = self.body.standing(UPRIGHT, self.side).X_ST[self.side]
+        R_TG, p_TG = self.arm.chain.forward(q)
+        R_SG, p_SG = X_ST.rotation() @ R_TG, p_TG @ X_ST.rotation().T + np.array(X_ST.p)
+        high = p_SG[:, 2] > target.p[0, 2]
+        q = q[high]
+        if laden:
+            turn = np.arctan2(R_SG[high, 1, 0], R_SG[high, 0, 0]) - self.candidate.heading[0]
+            tilted = X_ST.rotation().T @ reach.rotations_z(turn) @ target.R
+            solved = self.arm.chain.solve(tilted, p_TG[high], q)
+            q = solved.q[solved.ok()]
+        return q[np.argsort(np.linalg.norm(q - q_near, axis=1), kind="stable")]
 
     def _raised(
         self, raised: Array, scene: Scene, finger: float
@@ -147,9 +179,28 @@ class Checker:
             for q in raised:
                 touch = self._sweep(scene, q, finger, clearance)
                 touch = touch or self._leaning(scene, q, finger)
+                touch = touch or (self._face(scene, q) if self.lean.last else None)
                 if touch is None:
                     return None, q
         return touch, None
+
+    def _face(self, scene: Scene, q: Array) -> str | None:
+        """What an arm that is up beside the head touches as the head looks elsewhere."""
+        model, motors = self.body.model, self.body.nominal.copy()
+        head = self.body.description.indices("head")
+        lower, upper = model.lower_rad[head], model.upper_rad[head]
+        looks = np.stack([lower, 0.5 * lower, motors[head], 0.5 * upper, upper], axis=1).tolist()
+        motors[self.arm.motors] = q
+        X_WB = SE3.from_xy_yaw(*self.candidate.stance_of(0)) @ self._standing(0.0)[0]
+        scene.set_clearance(0.0)
+        for look in product(*looks):
+            motors[head] = look
+            scene.pose(X_WB, motors)
+            scene.update()
+            touches = scene.touches(scene.arm_geoms(self.side), allowed=frozenset(scene.solids))
+            if touches:
+                return touches[0].second
+        return None
 
     def swaying(self, q_ready: Array, q_leaving: Array) -> str | None:
         """What arm or body touch as the steps in and out sway the body; the hand is left out."""

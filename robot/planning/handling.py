@@ -26,7 +26,7 @@ from robot.planning.handling_problem import Choice, HandlingProblem, Tally
 from robot.planning.requests import Stance
 from robot.planning.robot_body import Body
 from robot.planning.solids import PIECE
-from robot.planning.stances import Candidates, propose
+from robot.planning.stances import Candidates, Stage, propose
 from robot.planning.trials import passing
 
 BATCH, LAST_BATCH = 160, 1600
@@ -48,8 +48,9 @@ def search(
 ) -> Choice | Failure:
     """The best of the first good candidates, or why there is none."""
     tally, tried, total = Tally(), 0, 0
-    leans = body.description.handy.reaching.leans
-    for last in sorted({lean.last for lean in leans}):
+    highest_m = float(np.max(problem.references[:, 2]))
+    leans = [one for one in body.description.handy.reaching.leans if one.from_m <= highest_m]
+    for stage in sorted(dict.fromkeys(map(Stage.of, leans)), key=lambda stage: stage.last):
         candidates, proposed = propose(
             problem.options,
             problem.references,
@@ -62,10 +63,10 @@ def search(
             walk_cost_per_m=problem.walk_cost_per_m,
             people=problem.people,
             seed=seed,
-            last=last,
+            stage=stage,
         )
         tried, total = tried + len(candidates), total + proposed
-        choice = _first_good(body, problem, candidates, tally, last=last)
+        choice = _first_good(body, problem, candidates, tally, last=stage.last)
         if choice is not None:
             return choice
     return _explain(body, problem, floor, (tried, total), tally)

@@ -112,15 +112,15 @@ def reach(
 
 
 def first_reach(
-    body: Body, arm: Arm, trunks: Trunks, targets: Targets, *, over: bool = False
+    body: Body, arm: Arm, trunks: Trunks, targets: Targets, *, posture: str = ""
 ) -> Reached:
     """From the robot's own postures and the middle of the ranges; each where the last failed.
 
-    With `over` only from those with the arm up and over an edge, if there are any.
+    With a `posture` from that instead of its own.
     """
     robot = body.description
-    names = robot.handy.reaching.over if over else ()
-    names = names or tuple(name for name in ("carry", "nominal") if name in robot.postures)
+    own = tuple(name for name in ("carry", "nominal") if name in robot.postures)
+    names = (posture,) if posture else own
     seeds = [np.array(robot.posture(name))[arm.motors] for name in names]
     seeds.append(0.5 * (arm.lower + arm.upper))
     n = len(targets.p)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
@@ -51,6 +52,23 @@ def posture_of(lean: Lean, side: Side) -> BodyPosture:
     return BodyPosture(
         height_m=lean.base_height_m, pitch_rad=lean.pitch_rad, yaw_rad=sign * lean.yaw_rad
     )
+
+
+class Stage(NamedTuple):
+    """Leans that are tried together, each stage where those before it lead nowhere.
+
+    Attributes:
+        last: whether they reach over an edge.
+        arm: the posture that the inverse kinematics begin in; empty: the robot's own.
+    """
+
+    last: bool
+    arm: str
+
+    @classmethod
+    def of(cls, lean: Lean) -> Stage:
+        """Of a lean."""
+        return cls(lean.last, lean.arm)
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +136,7 @@ def propose(
     walk_cost_per_m: float,
     people: Array,
     seed: int,
-    last: bool = False,
+    stage: Stage,
 ) -> tuple[Candidates, int]:
     """Candidates that can be stood on and stepped in to, and how many there were before.
 
@@ -134,7 +152,7 @@ def propose(
         walk_cost_per_m: cost of walking a metre to the stance.
         people: circles (x, y, radius) that hands keep away from where they can, shape (n, 3).
         seed: of the spread.
-        last: in the postures that are tried last, instead of the others.
+        stage: of the search: which leans.
     """
     stances: list[Array] = []
     headings: list[Array] = []
@@ -143,7 +161,7 @@ def propose(
     for side, (i, lean), (j, option), (k, reference) in product(
         sides, enumerate(reaching.leans), enumerate(options), enumerate(references)
     ):
-        if lean.last != last:
+        if Stage.of(lean) != stage or reference[2] < lean.from_m:
             continue
         _around(option, reference, side, lean, reaching, into=(stances, headings, costs))
         kinds.append(np.tile([j, k, i, int(side == "left")], (len(costs[-1]), 1)))
@@ -155,9 +173,10 @@ def propose(
     cost = cost + JITTER * np.random.default_rng(seed).random(total)
     order = np.argsort(cost, kind="stable")
     standoffs = _Standoffs(floor, start, radius_m, reaching)
+    beside = np.array([bool(lean.hand_rad) for lean in reaching.leans])
     kept: list[Indices] = []
     backs: list[Array] = []
-    left = np.array([lean.quota if lean.last == last else 0 for lean in reaching.leans])
+    left = np.array([lean.quota if Stage.of(lean) == stage else 0 for lean in reaching.leans])
     share = np.repeat((OPTION_SHARE * left / len(options)).astype(int), len(options))
     left -= share.reshape(len(reaching.leans), -1).sum(axis=1)
     for first in range(0, total, CHUNK):
@@ -167,7 +186,7 @@ def propose(
         clearance = floor.clearances_m(stance[rows, :2])
         cost[rows] += NARROW_COST_PER_M * np.maximum(0.0, reaching.roomy_m - clearance)
         rows = rows[clearance >= reaching.narrow_m]
-        back, tight = standoffs.lengths(stance[rows])
+        back, tight = standoffs.lengths(stance[rows], beside=beside[tags[rows, 2]])
         cost[rows[tight]] += TIGHT_COST
         rows, back = rows[back > 0.0], back[back > 0.0]
         sign = np.where(tags[rows, 3] == 1, 1.0, -1.0)
@@ -218,10 +237,16 @@ def _around(
     """Stances (n, 3), hand headings (n,) and costs (n,) of one combination, appended to lists."""
     sign = 1.0 if side == "left" else -1.0
     turns_rad = LAST_TURNS_RAD if lean.last else TURNS_RAD
-    grid = np.array(list(product(lean.ahead_m, lean.aside_m or reaching.aside_m, turns_rad)))
-    inward = reaching.inward_rad - reaching.inward_rad_m * grid[:, 1]
-    natural = -sign * inward * (0.5 if lean.pitch_rad else 1.0)
-    beta = natural + grid[:, 2]
+    asides_m = lean.aside_m or reaching.aside_m
+    grid = np.array(list(product(lean.ahead_m, asides_m, lean.hand_rad or turns_rad)))
+    if lean.hand_rad:
+        best_aside_m = float(np.mean(asides_m))
+        beta = sign * grid[:, 2]
+        grid[:, 2] -= np.mean(lean.hand_rad)
+    else:
+        best_aside_m = reaching.best_aside_m
+        inward = reaching.inward_rad - reaching.inward_rad_m * grid[:, 1]
+        beta = -sign * inward * (0.5 if lean.pitch_rad else 1.0) + grid[:, 2]
     if option.headings is None:
         repeats = HEADINGS
         yaw = np.repeat(numerics.even(0.0, 2 * math.pi, HEADINGS + 1)[:-1], len(beta))
@@ -235,14 +260,15 @@ def _around(
     px = reference[0] + ch * option.offset[0] - sh * option.offset[1]
     py = reference[1] + sh * option.offset[0] + ch * option.offset[1]
     y = sign * aside
-    far = np.maximum(0.0, ahead - reaching.far_m) if lean.pitch_rad == 0.0 else 0.0
+    upright = lean.pitch_rad == 0.0 and not lean.hand_rad
+    far = np.maximum(0.0, ahead - reaching.far_m) if upright else 0.0
     into[0].append(np.stack([px - c * ahead + s * y, py - s * ahead - c * y, yaw], axis=1))
     into[1].append(heading)
     into[2].append(
         option.cost
         + lean.cost
         + FAR_COST_PER_M * far
-        + ASIDE_COST_PER_M * np.abs(aside - reaching.best_aside_m)
+        + ASIDE_COST_PER_M * np.abs(aside - best_aside_m)
         + TURN_COST_PER_RAD * np.abs(turn)
     )
 
@@ -263,7 +289,8 @@ def _is_near(people: Array, points: Array) -> Mask:
 class _Standoffs:
     """Lengths of the last straight steps, from places that can be walked to.
 
-    A place with room for the arm is preferred to one that only has room for the body.
+    A place with room for the arm is preferred to one that only has room for the body; beside an
+    edge, one with room for an arm that goes up and over it.
     """
 
     def __init__(self, floor: Floor, start: Stance, radius_m: float, reaching: Reaching) -> None:
@@ -273,14 +300,15 @@ class _Standoffs:
         self._labels = floor.regions(radius_m)
         self._home = floor.home(self._labels, start[0], start[1])
 
-    def lengths(self, stance: Array) -> tuple[Array, Mask]:
+    def lengths(self, stance: Array, *, beside: Mask) -> tuple[Array, Mask]:
         """The first length that leads to such a place (0: none), and if it is tight, shape (n,)."""
         result = np.zeros(len(stance))
         tight = np.zeros(len(stance), dtype=bool)
         back = -np.stack([np.cos(stance[:, 2]), np.sin(stance[:, 2])], axis=1)
-        for room in (self._reaching.arm_room_m, self._radius):
+        for room in (self._reaching.over_room_m, self._reaching.arm_room_m, self._radius):
+            over = room == self._reaching.over_room_m
             for length in self._reaching.step_in_m:
-                rows = np.flatnonzero(result == 0.0)
+                rows = np.flatnonzero((result == 0.0) & (beside | (not over)))
                 at = stance[rows, :2] + length * back[rows]
                 label = self._floor.label_at(self._labels, at)
                 free = (label > 0) & ((label == self._home) if self._home else True)

@@ -115,7 +115,8 @@ def _reachable(
     arm = body.arms[side]
     main = reach.targets_of(some, problem.options, problem.references)
     trunks = reach.trunks_of(body, side, some)
-    reached = reach.first_reach(body, arm, trunks, main, over=last)
+    lean = body.description.handy.reaching.leans[int(some.lean[0])]  # of one stage, as all are
+    reached = reach.first_reach(body, arm, trunks, main, posture=lean.arm)
     tally.short_m = min(tally.short_m, float(np.min(reached.short_m)))
     ok = np.flatnonzero(reached.ok)
     tally.reached += len(ok)
@@ -174,6 +175,7 @@ def _closely(
     """The best of a group (of one hand) that passes at all poses and beats the best so far."""
     poses = _all_poses(body, problem, group)
     lines = _lines(body, group, poses, last=last)
+    picking = problem.kind == "pick"
     best: Choice | None = None
     for i, entry in enumerate(group):
         turned = float(np.max(np.abs(poses.q[2, i] - poses.q[0, i])))
@@ -187,6 +189,7 @@ def _closely(
             if touch is None:
                 poses.q[1:3, i] = line[:, i]
                 break
+        empty: _Way | None = None
         for k in range(3, len(poses.targets)) if touch is None else ():
             if not poses.met[k, i]:
                 continue
@@ -197,10 +200,17 @@ def _closely(
                 LIFT_GAIN if best and best.candidate is draft.candidate else 0
             ):
                 continue
-            touch, whole = _there_and_away(
-                checker, draft, picking=problem.kind == "pick", last=last
-            )
-            if whole is not None:
+            empty = empty or _way(checker, draft.back, draft.q_back, coming=picking, last=last)
+            touch = empty.touch or checker.lifted(draft.q_up)
+            if empty.touch is not None:
+                break
+            if touch is not None:
+                continue
+            laden = _way(checker, draft.up, draft.q_up, coming=not picking, last=last)
+            touch = laden.touch
+            if touch is None:
+                come, go = (empty, laden) if picking else (laden, empty)
+                whole = replace(draft, q_ready=come.q, q_away=go.q)
                 best = _better(best, _swaying(checker, whole, problem))
         if touch is not None:
             tally.touched[touch] += 1
@@ -259,28 +269,27 @@ def _draft(
     )
 
 
-def _there_and_away(
-    checker: Checker, draft: Choice, *, picking: bool, last: bool
-) -> tuple[str | None, Choice | None]:
-    """What is touched with the object raised, leaving, or arriving; else the whole choice.
+@dataclass(frozen=True, slots=True)
+class _Way:
+    """Between the standoff and a pose at the stance: what is touched, or joints for it.
+
+    `q` None: the arm may stay as it is at the pose.
+    """
+
+    touch: str | None
+    q: Array | None
+
+
+def _way(checker: Checker, target: Targets, q_near: Array, *, coming: bool, last: bool) -> _Way:
+    """Stepping in with the hand raised before `target` (`coming`), or straightening up and back.
 
     Where the arm may not stay as it is while the trunk straightens up, as over an edge, the hand is
     raised first (`last`).
     """
-    come, go = (draft.back, draft.up) if picking else (draft.up, draft.back)
-    q_come, q_go = (draft.q_back, draft.q_up) if picking else (draft.q_up, draft.q_back)
-    q_away: Array | None = None
-    touch = checker.lifted(draft.q_up) or checker.leaving(q_go)
-    if touch is not None and last:
-        touch = checker.lifted(draft.q_up)
-        if touch is None:
-            touch, q_away = checker.away(go, q_go)
-    if touch is not None:
-        return touch, None
-    touch, q_ready = checker.ready(come, q_come)
-    if q_ready is None:
-        return touch, None
-    return None, replace(draft, q_ready=q_ready, q_away=q_away)
+    if coming:
+        return _Way(*checker.ready(target, q_near))
+    touch = checker.leaving(q_near)
+    return _Way(*checker.away(target, q_near)) if touch is not None and last else _Way(touch, None)
 
 
 @dataclass(frozen=True, slots=True)

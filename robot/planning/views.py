@@ -30,7 +30,8 @@ CELL_M = 0.2
 NEAR_M = 1.9
 """Somewhat nearer than what perception takes for seen well, so that a planned view is one."""
 GRAZING_RAD, STEEP_RAD = 0.06, 1.05
-"""Least and greatest angle at which eyes look down on a surface; below that the chest is."""
+"""Least and greatest angle at which eyes look down on a surface; below that the chest is. Eyes that
+are level with a small thing see it from the side."""
 ABOVE_M = 0.04
 """Half the height of a small thing: so much above the surface the line of sight ends."""
 STANDING_M = 0.05
@@ -213,7 +214,7 @@ class _Atlas:
         aside_m, above_m = np.hypot(off[near, 0], off[near, 1]), self._eye_m - point[2]
         slope = np.arctan2(above_m, aside_m)
         fine = (np.hypot(aside_m, above_m) < NEAR_M) & (slope < STEEP_RAD)
-        fine &= (slope > GRAZING_RAD) | (above_m < 0.0)
+        fine &= (slope > GRAZING_RAD) | (above_m < ABOVE_M)
         above = point + np.array([0.0, 0.0, ABOVE_M])
         fine[fine] = self._screens.in_sight(above, self.eyes_W(cells[near[fine]]))
         seen: Mask = np.zeros(len(cells), dtype=bool)

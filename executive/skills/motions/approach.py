@@ -2,6 +2,7 @@
 
 Where there is room for an arm the hand is raised during the last steps to the standoff, and brought
 in during the last steps back to it: the feet need not wait for the arm, nor the arm for the feet.
+Beside an edge that the arm comes over they do: steps sway a hand there by more than it has room.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ def approach(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[Non
         X_WB = pose_of(plan.standoff) @ _X_SB(body)
         body.phase = f"walking to the {what}"
         yield from walk_near(body, plan.standoff)
-        if _has_room(body, plan.standoff):
+        if plan.over is None and _has_room(body, plan.standoff):
             yield from _raise_stepping(body, plan, X_WB=X_WB)
         else:
             yield from step_to(body, plan.standoff)
@@ -171,6 +172,7 @@ def withdraw(body: Body, plan: PickPlan | PlacePlan, arm_rad: Joints, *, what: s
         # a cup by 15 degrees, and it was put down 15 mm off.
         near = (
             not keep_upright
+            and plan.over is None
             and _has_room(body, plan.standoff)
             and _is_within(body, X_WS_goal, steps.bring_in_m, steps.bring_in_rad)
         )

@@ -1,7 +1,7 @@
 """A grasp with which a thing can also be put down where it is to go.
 
-A hand that came from above cannot put things on a board as high as the shoulder: how a thing is
-taken depends on what is wanted of it.
+A hand that came from above cannot put things on a board higher than the shoulder, or only with the
+arm over its edge: how a thing is taken depends on what is wanted of it.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def ask_fitting(body: Body, request: PickRequest, place: Place | None) -> Script
 
 
 def _can_put(body: Body, request: PickRequest, plan: PickPlan, place: Place) -> Script[bool]:
-    """Whether what is held so can be put on a place, as far as the grasp matters."""
+    """Whether what is held so can be put on a place with ease, as far as the grasp matters."""
     ignored = (*request.around.ignored, request.object_id)
     put = PlaceRequest(
         place=place,
@@ -54,7 +54,7 @@ def _can_put(body: Body, request: PickRequest, plan: PickPlan, place: Place) -> 
         seed=request.seed,
     )
     try:
-        yield from ask_past_people(body, put, PlacePlan)
+        placing = yield from ask_past_people(body, put, PlacePlan)
     except GaveUp as end:
         return end.failure.code not in UNFIT
-    return True
+    return placing.over is None

@@ -56,8 +56,14 @@ def test_from_afar_or_out_of_the_picture_nothing_is_seen_well(x_m: float) -> Non
 
 
 def test_at_a_grazing_angle_nothing_is_seen_well() -> None:
-    grazing, higher = table(z_m=EYE_M - 0.03), table(z_m=EYE_M - 0.3)
+    grazing, higher = table(1.6, z_m=EYE_M - 0.05), table(z_m=EYE_M - 0.3)
     assert seen(grazing, higher, image=picture(), X_WC=camera(0.1)) == [0.0, 1.0]
+
+
+@pytest.mark.parametrize("above_m", [0.02, -0.05])
+def test_what_eyes_are_level_with_is_seen_from_the_side(above_m: float) -> None:
+    level = table(z_m=EYE_M - above_m)
+    assert seen(level, image=picture(), X_WC=camera(0.1)) == [1.0]
 
 
 def test_what_stands_on_a_point_is_seen_there() -> None:

@@ -1,5 +1,6 @@
 """Picks and places stand where they can, in the room there is; failures name the cause."""
 
+import itertools
 import math
 
 import msgspec
@@ -156,13 +157,15 @@ def test_what_was_taken_from_above_goes_on_a_high_board_when_taken_with_a_levell
 ) -> None:
     low = Shape(kind="box", size_m=(0.05, 0.17, 0.035))
     remote = on_table(-0.1, 0.2, shape=low)
+    board = BOARD[BOARDS_M[2]]
+    high = msgspec.structs.replace(board, X_WP=SE3((0.0, 0.0, 0.06)) @ board.X_WP)
     reached: dict[bool, bool] = {}
     for most_tilt_rad in (math.inf, 0.4):
         plan = pick(solver, surroundings(remote), most_tilt_rad=most_tilt_rad)
         assert isinstance(plan, PickPlan), plan
         assert plan.tilt_rad <= most_tilt_rad
         held = Held(id="cup", shape=low, X_GO=plan.X_OG.inverse())
-        put = place(solver, BOARD[BOARDS_M[2]], surroundings(), side=plan.side, held=held)
+        put = place(solver, high, surroundings(), side=plan.side, held=held)
         reached[plan.tilt_rad > 0.4] = isinstance(put, PlacePlan)
     assert reached == {True: False, False: True}
 
@@ -266,6 +269,39 @@ def test_deep_on_a_counter_the_arm_comes_over_the_edge(
     check_standing(solver.body, on_a_counter(height, deep), plan)
     if plan.posture.height_m == 0.65:
         assert plan.over is not None
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+@pytest.mark.parametrize(("height", "deep"), [(1.10, 0.20), (1.15, 0.15)])
+def test_higher_than_the_shoulder_the_arm_goes_up_beside_the_edge(
+    solver: Solver, height: float, deep: float, side: Side
+) -> None:
+    around = on_a_counter(height, deep)
+    plan = pick(solver, around, side=side)
+    assert isinstance(plan, PickPlan), plan
+    check_standing(solver.body, around, plan)
+    assert plan.over is not None
+    elbow_up_rad = plan.over.at_rad[0]
+    assert elbow_up_rad < -1.8
+    floor = Floor(solids_of(around), around.map.bounds_m)
+    assert floor.clearance_m(*plan.standoff[:2]) >= 0.4
+
+
+def test_an_arm_that_goes_up_keeps_clear_of_the_head_wherever_it_looks(solver: Solver) -> None:
+    body = solver.body
+    plan = pick(solver, on_a_counter(1.10, 0.20))
+    assert isinstance(plan, PickPlan), plan
+    standing, scene = body.standing(BodyPosture()), body.scenes.get(())
+    q = standing.q.copy()
+    q[body.arms[plan.side].motors] = plan.ready_rad
+    scene.set_clearance(0.0)
+    head = body.description.indices("head")
+    ranges = [(body.model.lower_rad[k], 0.0, body.model.upper_rad[k]) for k in head]
+    for look in itertools.product(*ranges):
+        q[head] = look
+        scene.pose(standing.X_SB, q)
+        scene.update()
+        assert not scene.touches(scene.arm_geoms(plan.side))
 
 
 @pytest.mark.parametrize(("height", "deep"), [(0.98, 0.45), (1.05, 0.35)])

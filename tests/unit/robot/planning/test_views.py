@@ -194,3 +194,11 @@ def test_the_eyes_rest_on_points_that_are_to_be_seen(solver: Solver, z_m: float)
     plan, _, _ = look(solver, world_map, place, start=(0.0, 0.0, 0.0))
     samples = [tuple(p) for p in place.samples().tolist()]
     assert set(plan.gazes_W) <= {samples[i] for i in plan.sees}
+
+
+def test_a_counter_at_the_height_of_the_eyes_is_seen(solver: Solver) -> None:
+    place = Place(id="bar", name="bar", X_WP=SE3((2.0, 0.0, 1.1)), size_m=(0.9, 1.4), of="bar")
+    world_map = map_of(block("bar", 2.0, 0.0, (0.9, 1.4, 1.1)), bounds_m=(-2, -2, 4, 2))
+    plan, sees, _ = look(solver, world_map, place, start=(0.0, 0.0, 0.0))
+    assert plan.stance is not None
+    assert sees == ["bar"]
