@@ -45,6 +45,7 @@ from intents.languages import language_of, only_english
 from intents.outcomes import Choice, Goals, Outcome, Question, Refusal
 from intents.second_look import Attempt, just_that, remarked, second_look
 from intents.stopping import is_stop
+from intents.third_look import third_look
 from intents.vocabulary import Vocabulary
 
 Fallback = Callable[[str, Vocabulary, Context], Outcome | None]
@@ -131,13 +132,17 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         chosen = _completed(text, vocabulary, context, question)
         if chosen:
             return chosen
-    outcome, after = _read(text, vocabulary, context)
-    pointed = None if isinstance(outcome, Goals) else _pointed_out(text, vocabulary, context)
-    if pointed:
-        return pointed
-    if isinstance(outcome, Refusal) and question is not None:
-        return _completed(text, vocabulary, context, question) or (outcome, after)
-    return outcome, after
+    found = _looked(text, vocabulary, context)
+    outcome, after = _within_bounds(text, vocabulary, context, found)
+    if question is not None:
+        pointed = None if isinstance(outcome, Goals) else _pointed_out(text, vocabulary, context)
+        if pointed is None and isinstance(outcome, Refusal):
+            pointed = _completed(text, vocabulary, context, question)
+        if pointed:
+            return pointed
+    index = index_of(vocabulary)
+    last = third_look(text, index, found, lambda said: first_look(said, vocabulary, context))
+    return (outcome, after) if last is found else _within_bounds(text, vocabulary, context, last)
 
 
 def _pointed_out(
@@ -148,7 +153,8 @@ def _pointed_out(
     about = question.about if question is not None else None
     if question is None or about is None:
         return None
-    seen, _ = _read(f"look at {text}", vocabulary, replace(context, object=about, question=None))
+    asked = replace(context, object=about, question=None)
+    seen = _looked(f"look at {text}", vocabulary, asked).outcome
     goal = seen.goals[0] if isinstance(seen, Goals) and len(seen.goals) == 1 else None
     query = goal.object if isinstance(goal, LookAt) else None
     found = ground(query, context.entities, view=context.view) if query else None
@@ -176,7 +182,8 @@ def _completed(
     """What the sentence before means with an answer put in."""
     asked: tuple[Outcome, Context] | None = None
     for whole in completed(text, question):
-        outcome, after = _read(whole, vocabulary, context)
+        found = _looked(whole, vocabulary, context)
+        outcome, after = _within_bounds(whole, vocabulary, context, found)
         if isinstance(outcome, Goals):
             return outcome, after
         if isinstance(outcome, Question) and outcome.choices and not _alike(outcome, question):
@@ -212,12 +219,19 @@ def _second_opinion(
     return _settled(replace(checked, parser=other.parser), context, scope)
 
 
-def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome, Context]:
+def _looked(text: str, vocabulary: Vocabulary, context: Context) -> Attempt:
     """What a text asks for: read as it stands, without background, in plainer words."""
-    first = first_look(text, vocabulary, context)
-    found = second_look(
-        text, index_of(vocabulary), first, lambda said: first_look(said, vocabulary, context)
-    )
+
+    def read(said: str) -> Attempt:
+        return first_look(said, vocabulary, context)
+
+    return second_look(text, index_of(vocabulary), read(text), read)
+
+
+def _within_bounds(
+    text: str, vocabulary: Vocabulary, context: Context, found: Attempt
+) -> tuple[Outcome, Context]:
+    """What was made of a text, or what is asked or said of a bound in it that no goal carries."""
     if not isinstance(found.outcome, Refusal) and found.outcome.goals:
         return _bounded(text, found.outcome), found.after
     return _loosened(text, vocabulary, context, found.outcome) or (found.outcome, found.after)

@@ -165,11 +165,15 @@ def is_settled(text: str, first: Attempt) -> bool:
     """Whether there is nothing to be gained by other words than those that were said."""
     if first.error is not None:
         return isinstance(first.error, Unasked | Offered | Unpromised)
-    length = len(text.split())
-    plain = length <= _FEWEST or (length <= _PLAIN_WORDS and not _BETWEEN.search(text))
-    whole = length > _LONGEST or plain
+    whole = len(text.split()) > _LONGEST or is_plain(text)
     depends = any(isinstance(goal, If) for goal in first.goals)
     return not first.goals or whole or depends
+
+
+def is_plain(text: str) -> bool:
+    """Whether a sentence is too short to hold anything beside an order."""
+    length = len(text.split())
+    return length <= _FEWEST or (length <= _PLAIN_WORDS and not _BETWEEN.search(text))
 
 
 def looks_at(

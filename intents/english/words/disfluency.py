@@ -97,7 +97,7 @@ def _without_particles(tokens: list[Token]) -> list[Token]:
         after = words[at + 1] if at + 1 < len(words) else FULL_STOP
         goes_on = after in lexicon.DETERMINERS or base_form(after) in FIRST_WORDS
         begun = words[max(0, at - _FAR) : at]
-        told = not _STATES.isdisjoint(begun) and before not in _BEFORE_SIDES
+        told = not _STATES.isdisjoint(begun) and before not in _BEFORE_SIDES | FIRST_WORDS
         if _HESITATION.fullmatch(token.text) or _is_nowhere(words, at):
             continue
         if token.text in _ASSENTS and kept and before not in _SIGNS and not _tells(words[:at]):

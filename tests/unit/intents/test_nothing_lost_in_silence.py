@@ -62,6 +62,8 @@ def test_what_cannot_be_is_refused(said: str):
         ("say it is noon every day", "say “it is noon every day”"),
         ("nod, then bow", "nod, then bow"),
         ("while you are at it, nod", "nod"),
+        ("look left; look right; nod", "look left, then look right, then nod"),
+        ("turn left. Turn right. Nod.", "turn 90° left, then turn 90° right, then nod"),
         ("carry the thermos to the sofa, please", "bring the thermos to the sofa"),
     ],
 )

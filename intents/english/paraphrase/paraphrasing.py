@@ -1,0 +1,117 @@
+"""A sentence said again in plain words, and how sure the network is of them."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from intents.english.paraphrase.network import BEGIN, END, Network, shipped
+from intents.english.paraphrase.pointing import pointing
+from intents.english.paraphrase.source import SORTS, Unit, units, words_of
+from intents.english.paraphrase.wordpieces import pieces
+from intents.english.words.names import NameIndex
+
+NOTHING, ASK = "nothing", "ask"
+"""What is written of a sentence that asks for nothing, and of one that has to be asked about."""
+_CLOSE = {"°", "'s"}
+"""What stands right behind the word before it."""
+
+
+class Paraphrase(NamedTuple):
+    """A sentence in plain words.
+
+    Attributes:
+        text: The plain words.
+        likely: How likely they are by the network [0..1].
+        pointed: The numbers of the units that come back in the plain words, in order.
+    """
+
+    text: str
+    likely: float
+    pointed: list[int]
+
+
+def read_in(
+    said: Sequence[Unit], words: Sequence[Sequence[str]], known: dict[str, int], longest: int
+) -> tuple[list[int], list[int], list[int]]:
+    """A sentence as the network takes it in.
+
+    Args:
+        said: The units.
+        words: The words of each unit.
+        known: The number of each piece.
+        longest: So many pieces are read; what is behind them is not.
+
+    Returns:
+        The pieces, what each is, and the first piece of each unit (0 where it was not read).
+    """
+    ids, sorts, heads = [known["[CLS]"]], [0], list[int]()
+    for unit, spelled in zip(said, words, strict=True):
+        found = [piece for word in spelled for piece in pieces(word, known)]
+        fits = len(ids) + len(found) < longest
+        heads.append(len(ids) if fits else 0)
+        if fits:
+            ids += found
+            sorts += [SORTS.index(unit.sort) + (0 if unit.is_whole else len(SORTS))] * len(found)
+    return [*ids, known["[SEP]"]], [*sorts, 0], heads
+
+
+class Heard:
+    """A sentence as the network has read it.
+
+    Attributes:
+        units: What it consists of.
+    """
+
+    def __init__(self, text: str, index: NameIndex, network: Network | None = None) -> None:
+        """Read a sentence.
+
+        Args:
+            text: The sentence.
+            index: The names of its world.
+            network: What was learnt; by default what comes with the package.
+        """
+        self._net = network or shipped()
+        self._index = index
+        words = words_of(text)
+        self.units = units(words, index)
+        spelled = [[word.raw for word in words[unit.start : unit.end]] for unit in self.units]
+        ids, sorts, self._heads = read_in(self.units, spelled, self._net.known, self._net.longest)
+        self._read = self._net.read(ids, sorts)
+
+    def paraphrase(self) -> Paraphrase:
+        """What the network says instead of it."""
+        writing, known = self._net.begin(self._read, self._heads), len(self._net.words)
+        told, sure, last = list[int](), 0.0, BEGIN
+        while len(told) < self._net.longest_plain:
+            odds = writing.after(last)
+            last = int(odds.argmax())
+            sure += float(odds[last])
+            if last == END:
+                break
+            told.append(last)
+        pointed = [word - known for word in told if word >= known]
+        plain = [self.units[w - known].meant if w >= known else self._net.words[w] for w in told]
+        return Paraphrase(joined(plain), float(np.exp(sure)), pointed)
+
+    def likely(self, plain: str) -> float:
+        """How likely the network would say these words instead of it [0..1]."""
+        told = pointing(plain, self.units, self._index, self._net.numbers_of)
+        if told is None:
+            return 0.0
+        writing, known = self._net.begin(self._read, self._heads), len(self._net.words)
+        at = [
+            known + word if isinstance(word, int) else self._net.numbers_of[word] for word in told
+        ]
+        sure = 0.0
+        for last, word in zip([BEGIN, *at], [*at, END], strict=True):
+            sure += float(writing.after(last)[word])
+        return float(np.exp(sure))
+
+
+def joined(plain: Sequence[str]) -> str:
+    """Plain words as a text."""
+    text = " ".join(plain).replace("“ ", "“").replace(" ”", "”").replace(" ,", ",")
+    for sign in _CLOSE:
+        text = text.replace(f" {sign}", sign)
+    return text
