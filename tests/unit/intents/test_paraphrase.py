@@ -89,7 +89,7 @@ def looked(said: str, network: Says) -> Attempt:
     return third_look(said, INDEX, read(said), read, hear=network)
 
 
-STRANGE = "the thermos wants frobnicating over yonder by way of Ingrid somehow"
+STRANGE = "frobnicate the thermos over yonder by way of Ingrid somehow please"
 
 
 def test_what_is_sure_is_done_what_is_likely_asked_and_what_is_neither_left() -> None:
@@ -102,6 +102,12 @@ def test_what_is_sure_is_done_what_is_likely_asked_and_what_is_neither_left() ->
     assert asked.outcome.goals == done.outcome.goals
     left = looked(STRANGE, Says(order, 0.2))
     assert left.outcome == first_look(STRANGE, OBSERVATORY, Context()).outcome
+
+
+def test_where_there_may_be_nothing_to_do_it_is_only_asked() -> None:
+    said = "the thermos wants frobnicating over yonder by way of Ingrid somehow"
+    asked = looked(said, Says("bring the thermos to Ingrid", 1.0))
+    assert isinstance(asked.outcome, Question)
 
 
 @pytest.mark.parametrize("said", [f"if he waves, {STRANGE}", f"not the torch, {STRANGE}"])
