@@ -47,7 +47,9 @@ def third_look(
     if is_plain(text):
         return before
     if isinstance(before.outcome, Goals):
-        return before if is_settled(text, before) else _checked(text, index, before, read, hear)
+        more = any(isinstance(goal, _BY_THE_WAY) for goal in before.goals)
+        settled = len(before.goals) == 1 or not more or is_settled(text, before)
+        return before if settled else _checked(text, index, before, read, hear)
     idle = isinstance(before.error, Idle)
     if type(before.error) is Partly or not (before.outcome.puzzled or idle):
         return before
