@@ -1,8 +1,8 @@
-"""A sentence that the grammar does not read whole, or reads oddly, as a network says it again.
+"""A sentence that the grammar does not read whole, as a network says it again.
 
 The network (:mod:`intents.english.paraphrase`) makes no goals: it says the sentence in plain
 words, and how sure it is of them; the grammar reads those. It also tells how likely it would have
-said what the grammar made of the sentence itself: what it would hardly ever say is asked about.
+said what the grammar made of the sentence itself: an order read out of talk is so left out.
 """
 
 import re
@@ -26,8 +26,8 @@ _BY_THE_WAY = (Wait, Stop, Cancel, Pause, Say, Report, LookAt)
 """What is read out of talk beside an order: "hang on", "never mind", "look", "I say"."""
 ODD = 1e-3
 """The grammar's reading of such talk is given up for what the network would say so much rather."""
-
-_RELATIVE = frozenset(("that", "which", "who", "is"))
+_RELATIVE = lexicon.words("that which who is")
+"""Behind one of these "not" says which is meant: "all that is not red"."""
 
 Hearing = Callable[[str, NameIndex], Heard]
 

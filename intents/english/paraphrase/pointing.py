@@ -5,7 +5,7 @@ from collections.abc import Collection, Sequence
 from intents.english.paraphrase.source import Unit, units, words_of
 from intents.english.words.names import NameIndex
 
-QUOTES = "“”"
+_QUOTES = "“”"
 
 
 def pointing(
@@ -25,7 +25,7 @@ def pointing(
     told: list[str | int] = []
     last, quoted = -1, False
     for unit in units(words_of(plain), index):
-        quoted = quoted != (unit.said in QUOTES)
+        quoted = quoted != (unit.said in _QUOTES)
         at = _pointed(unit, said, last)
         if at is not None and (unit.names or quoted or unit.said not in known):
             told.append(at)

@@ -13,7 +13,6 @@ SORTS: tuple[Sort, ...] = (
     "word", "sign", "object", "category", "place", "room", "person", "several",
 )  # fmt: skip
 _WORD = re.compile(r"[A-Za-z]+|[0-9]+(?:\.[0-9]+)?|['’][A-Za-z]+|[^\sA-Za-z0-9]")
-_SELF = lexicon.words("me us here")
 
 
 class Unit(NamedTuple):

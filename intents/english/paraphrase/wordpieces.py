@@ -4,11 +4,15 @@ from collections.abc import Mapping
 
 UNKNOWN = "[UNK]"
 _GOES_ON = "##"
+_LONGEST = 100
+"""What has more letters is no word, as BERT has it; cutting it would take quadratic time."""
 
 
 def pieces(word: str, known: Mapping[str, int]) -> list[int]:
     """The pieces of a word, the longest first from its beginning; one unknown piece if none fit."""
     plain = word.lower().replace("’", "'")
+    if len(plain) > _LONGEST:
+        return [known[UNKNOWN]]
     found: list[int] = []
     at = 0
     while at < len(plain):

@@ -12,7 +12,7 @@ from intents.english.paraphrase.pointing import pointing
 from intents.english.paraphrase.source import units, words_of
 from intents.english.paraphrase.wordpieces import pieces
 from intents.english.words.names import NameIndex, index_of
-from intents.goals import to_builtins
+from intents.goals import Bring, Wait, to_builtins
 from intents.outcomes import Goals, Question
 from intents.parser import first_look, parse
 from intents.plain_words import plainly
@@ -135,6 +135,17 @@ def test_what_the_grammar_reads_from_every_word_stays() -> None:
     assert looked(said, Says(NOTHING, 1.0, own=0.0)).outcome == kept.outcome
 
 
+def test_talk_that_was_read_as_an_order_is_left_out_where_nobody_would_say_so() -> None:
+    said = "Hold on please. Could you bring the thermos to Ingrid? It is getting cold in there."
+    read = first_look(said, OBSERVATORY, Context())
+    assert [type(goal) for goal in read.goals] == [Wait, Bring]
+    left = looked(said, Says("bring the thermos to Ingrid", 0.9, own=0.0))
+    assert isinstance(left.outcome, Goals)
+    assert left.goals == read.goals[1:]
+    assert looked(said, Says("bring the thermos to Ingrid", 0.9, own=0.1)).goals == read.goals
+    assert looked(said, Says("put the thermos on the bench", 0.9, own=0.0)).goals == read.goals
+
+
 @pytest.mark.parametrize(
     "said",
     [
@@ -182,6 +193,7 @@ def test_pieces_are_the_longest_that_are_known() -> None:
     known = {"[UNK]": 0, "tel": 1, "telesc": 2, "##ope": 3, "##o": 4}
     assert pieces("Telescope", known) == [2, 3]
     assert pieces("xylophone", known) == [0]
+    assert pieces("telesc" + "o" * 95, known) == [0]  # no word has so many letters
 
 
 def test_what_comes_from_nowhere_cannot_be_pointed_at() -> None:
