@@ -49,7 +49,7 @@ _FEWEST = 3
 """So few leave none at all."""
 _MOST_REWORDED = 2
 """So many remainders without whole clauses are said in plain words: each takes a millisecond."""
-_LONGEST = 60
+LONGEST = 60
 """Longer than that nobody talks beside an order that the grammar reads."""
 _BETWEEN = re.compile(r"[,;:—–(]|[.!?…].*\w")
 
@@ -165,7 +165,7 @@ def is_settled(text: str, first: Attempt) -> bool:
     """Whether there is nothing to be gained by other words than those that were said."""
     if first.error is not None:
         return isinstance(first.error, Unasked | Offered | Unpromised)
-    whole = len(text.split()) > _LONGEST or is_plain(text)
+    whole = len(text.split()) > LONGEST or is_plain(text)
     depends = any(isinstance(goal, If) for goal in first.goals)
     return not first.goals or whole or depends
 

@@ -18,7 +18,7 @@ from intents.english.words.names import NameIndex
 from intents.goals import Cancel, LookAt, Pause, Report, Say, Stop, Wait
 from intents.outcomes import Goals, Question, Refusal
 from intents.plain_words import plainly
-from intents.second_look import Attempt, Grammar, is_plain, is_settled, just_that, remarked
+from intents.second_look import LONGEST, Attempt, Grammar, is_plain, is_settled, just_that, remarked
 
 SURE, LIKELY = 0.7, 0.4
 """From here on plain words are acted on; from here on they are asked about."""
@@ -44,7 +44,7 @@ def third_look(
         read: The grammar.
         hear: What says it in plain words; by default the network that comes with the package.
     """
-    if is_plain(text):
+    if is_plain(text) or len(text.split()) > LONGEST:
         return before
     if isinstance(before.outcome, Goals):
         more = any(isinstance(goal, _BY_THE_WAY) for goal in before.goals)
@@ -59,6 +59,8 @@ def third_look(
     if CONDITIONS.intersection(words) or _is_denied(words):
         return before
     heard = hear(text, index)
+    if not heard.is_whole:
+        return before
     said = heard.paraphrase()
     if said.text in (ASK, NOTHING):
         return before

@@ -61,6 +61,7 @@ class Heard:
 
     Attributes:
         units: What it consists of.
+        is_whole: Whether all of it was read; it may have been too long.
     """
 
     def __init__(self, text: str, index: NameIndex, network: Network | None = None) -> None:
@@ -77,6 +78,7 @@ class Heard:
         self.units = units(words, index)
         spelled = [[word.raw for word in words[unit.start : unit.end]] for unit in self.units]
         ids, sorts, self._heads = read_in(self.units, spelled, self._net.known, self._net.longest)
+        self.is_whole = all(self._heads)
         self._read = self._net.read(ids, sorts)
 
     def paraphrase(self) -> Paraphrase:

@@ -65,6 +65,7 @@ class Says(Heard):
     def __init__(self, plain: str, likely: float, own: float = 1.0) -> None:
         self.plain, self.sure, self.own = plain, likely, own
         self.units = []
+        self.is_whole = True
 
     def __call__(self, text: str, index: NameIndex) -> "Says":
         """Hear a sentence."""
@@ -170,6 +171,17 @@ def test_the_network_says_plain_words_again_and_knows_how_likely_it_would() -> N
     assert said.text == "bring the thermos to Ingrid"
     assert heard.likely(said.text) == pytest.approx(said.likely, rel=1e-3)
     assert heard.likely("put the thermos on the bench") == 0.0  # no bench was spoken of
+
+
+def test_what_is_too_long_to_be_read_whole_is_left_to_the_grammar() -> None:
+    rambling = f"{'incomprehensibilities ' * 40} {STRANGE}"
+    assert not Heard(rambling, INDEX).is_whole
+    assert Heard(STRANGE, INDEX).is_whole
+    part = Says("bring the thermos to Ingrid", 1.0)
+    part.is_whole = False
+    assert not isinstance(looked(STRANGE, part).outcome, Goals)
+    endless = f"{STRANGE}, {'and on it goes ' * 20}"
+    assert not isinstance(looked(endless, Says("bring the thermos to Ingrid", 1.0)).outcome, Goals)
 
 
 def test_what_comes_next_is_a_distribution() -> None:
