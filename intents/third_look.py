@@ -1,39 +1,63 @@
 """A sentence that the grammar does not read whole, as a network says it again.
 
 The network (:mod:`intents.english.paraphrase`) makes no goals: it says the sentence in plain
-words, and how sure it is of them; the grammar reads those. It also tells how likely it would have
-said what the grammar made of the sentence itself: an order read out of talk is so left out.
+words, and how sure it is of them; the grammar reads those. Which of the two readings is to be
+acted on, or whether neither is, was learnt (:mod:`intents.english.learnt.choice`).
 """
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
-from intents.english.learnt.trust import NEVER
-from intents.english.paraphrase.paraphrasing import ASK, NOTHING, Heard, Paraphrase
-from intents.english.paraphrase.source import Unit
-from intents.english.trouble import Idle, Offered, Partly, Unasked, Unpromised
+from intents.english.learnt.choice import Both, Kind, Name, Side, choice, lost
+from intents.english.learnt.field import LEARNT, Fields
+from intents.english.paraphrase.paraphrasing import ASK, NOTHING, Heard
+from intents.english.trouble import (
+    Idle,
+    Offered,
+    Partly,
+    Unasked,
+    Unpromised,
+)
 from intents.english.words import lexicon
-from intents.english.words.limits import CONDITIONS
+from intents.english.words.limits import CONDITIONS, MEASURES
 from intents.english.words.names import NameIndex
-from intents.goals import Cancel, LookAt, Pause, Report, Say, Stop, Wait
-from intents.outcomes import Goals, Question, Refusal
-from intents.plain_words import plainly
-from intents.second_look import LONGEST, Attempt, Grammar, is_plain, is_settled, just_that, remarked
+from intents.goals import Cancel, Goal, LookAt, Pause, Report, Say, Stop, Wait
+from intents.outcomes import Goals, Outcome, Question, Refusal
+from intents.second_look import (
+    LONGEST,
+    Attempt,
+    Grammar,
+    is_plain,
+    is_settled,
+    just_that,
+    remarked,
+)
 
-SURE, LIKELY = 0.7, 0.4
-"""From here on plain words are acted on; from here on they are asked about."""
+SURE, KEPT, LIKELY = 0.6, 0.25, 0.3
+"""From the first on the network's reading is acted on, though from the second on the grammar's
+stays; from the third on it is asked about."""
+SHORT = 6
+"""In so few words the one that the grammar asks about may well matter: "the lamp, gingerly"."""
 _BY_THE_WAY = (Wait, Stop, Cancel, Pause, Say, Report, LookAt)
 """What is read out of talk beside an order: "hang on", "never mind", "look", "I say"."""
-ODD = 1e-3
-"""The grammar's reading of such talk is given up for what the network would say so much rather."""
+
 _RELATIVE = lexicon.words("that which who is")
 """Behind one of these "not" says which is meant: "all that is not red"."""
+_WORDS = re.compile(r"[\w']+")
+_BESIDE = re.compile(rf",\s*(?:{'|'.join(sorted(lexicon.DETERMINERS))})\s+(\w+)\s*,")
+"""Something more that is meant: "the kettle, the cosy, ..."."""
 
 Hearing = Callable[[str, NameIndex], Heard]
 
 
 def third_look(
-    text: str, index: NameIndex, before: Attempt, read: Grammar, *, hear: Hearing = Heard
+    text: str,
+    index: NameIndex,
+    before: Attempt,
+    read: Grammar,
+    *,
+    hear: Hearing = Heard,
+    fields: Fields = LEARNT,
 ) -> Attempt:
     """The reading of a sentence to act on, or a question or refusal.
 
@@ -43,84 +67,111 @@ def third_look(
         before: What was made of it so far.
         read: The grammar.
         hear: What says it in plain words; by default the network that comes with the package.
+        fields: What was learnt; by default what comes with the package.
     """
-    if is_plain(text) or len(text.split()) > LONGEST:
+    found = looked(text, index, before, read, hear)
+    if found is None:
         return before
+    both, other = found
+    own, likely = choice(both, fields)
+    said = None if other is None or not isinstance(other.outcome, Goals) else other
     if isinstance(before.outcome, Goals):
-        more = any(isinstance(goal, _BY_THE_WAY) for goal in before.goals)
-        settled = len(before.goals) == 1 or not more or is_settled(text, before)
-        return before if settled else _checked(text, index, before, read, hear)
-    idle = isinstance(before.error, Idle)
-    if type(before.error) is Partly or not (before.outcome.puzzled or idle):
+        return before if own >= KEPT else _without_talk(text, before, said, both, likely)
+    offers = isinstance(before.outcome, Question) and before.outcome.goals
+    is_short = len(text.split()) <= SHORT and said and offers == said.goals
+    lacks = isinstance(before.error, Idle) or lost(both) or is_short or _measures(text)
+    if said and likely >= SURE and not lacks:
+        return _taken(said, both)
+    if said and likely >= LIKELY and not offers:
+        return _asked(text, said, "I did not get every word")
+    return before
+
+
+def _without_talk(
+    text: str, before: Attempt, said: Attempt | None, both: Both, likely: float
+) -> Attempt:
+    """Orders that are not to be trusted, without what was read out of talk beside them."""
+    if both.plain == NOTHING:
+        return _asked(text, before, "I am not sure that I got that")
+    if said is None or likely < SURE or any(goal not in before.goals for goal in said.goals):
         return before
-    if isinstance(before.error, Unasked | Offered | Unpromised):
-        return before
-    words = re.findall(r"[\w']+", text.lower().replace("’", "'"))
-    if CONDITIONS.intersection(words) or _is_denied(words):
-        return before
+    left_out = (goal for goal in before.goals if goal not in said.goals)
+    return _taken(said, both) if all(map(_is_by_the_way, left_out)) else before
+
+
+def _taken(said: Attempt, both: Both) -> Attempt:
+    told = f"I take that as “{both.plain.replace(' ;', ';')}”"
+    return said._replace(outcome=remarked(said.outcome, told))
+
+
+def looked(
+    text: str, index: NameIndex, before: Attempt, read: Grammar, hear: Hearing
+) -> tuple[Both, Attempt | None] | None:
+    """What grammar and network make of a sentence; None if the network is not to be asked.
+
+    Returns:
+        Both, and what the grammar makes of the network's words: None if it says that nothing is
+        to be done, or that it has to be asked.
+    """
+    if not _is_open(text, before):
+        return None
     heard = hear(text, index)
     if not heard.is_whole:
-        return before
+        return None
     said = heard.paraphrase()
-    if said.text in (ASK, NOTHING):
-        return before
-    attempt = read(said.text)
-    if isinstance(attempt.outcome, Refusal):
-        return before
-    least = NEVER if idle or _loses_names(heard, said) else SURE
-    taken = _taken(text, said, attempt, least)
-    offers = isinstance(before.outcome, Question) and before.outcome.goals
-    if taken is None or (offers and isinstance(taken.outcome, Question)):
-        return before  # what is offered already has more of the sentence in it
-    return taken
+    if any(word not in said.text for word in _BESIDE.findall(text.lower())):
+        return None
+    other = None if said.text in (ASK, NOTHING) else read(said.text)
+    names = [Name(one.sort, one.names, one.is_whole) for one in heard.units if one.names]
+    sides = _side(before), _side(other) if other else Side("nothing")
+    return Both(text, names, said.text, said.likely, *sides), other
 
 
-def _is_denied(words: list[str]) -> bool:
-    """Whether it is said what is not meant: "not the mug, ...", "all that isn't red"."""
+def _is_open(text: str, before: Attempt) -> bool:
+    """Whether other words might be read better than those that were said."""
+    if is_plain(text) or len(text.split()) > LONGEST or _limits(text):
+        return False
+    if isinstance(before.error, Unasked | Offered | Unpromised):
+        return False
+    if isinstance(before.outcome, Goals):
+        beside = len(before.goals) > 1 and any(map(_is_by_the_way, before.goals))
+        return beside and not is_settled(text, before)
+    if type(before.error) is Partly:  # that says what of it cannot be kept
+        return False
+    return before.outcome.puzzled or isinstance(before.error, Idle)
+
+
+def _measures(text: str) -> bool:
+    """Whether it is said how long or how far: of what may well be guessed."""
+    return not MEASURES.isdisjoint(_WORDS.findall(text.lower()))
+
+
+def _is_by_the_way(goal: Goal) -> bool:
+    """Whether somebody may have said that without asking for it: "hang on", not "wait 10 s"."""
+    return isinstance(goal, _BY_THE_WAY) and not (isinstance(goal, Wait) and goal.duration_s)
+
+
+def _limits(text: str) -> bool:
+    """Whether words say when something is to be done, or what is not meant: "that isn't red"."""
+    words = _WORDS.findall(text.lower().replace("’", "'"))
+    if CONDITIONS.intersection(words):
+        return True
     denied = [n for n, word in enumerate(words) if word == "not" or word.endswith("n't")]
     return any(n == 0 or words[n - 1] in _RELATIVE for n in denied)
 
 
-def _loses_names(heard: Heard, said: Paraphrase) -> bool:
-    """Whether something is named that does not come back: a name of this world, ", the cosy,"."""
-    told = {name for n in said.pointed for name in heard.units[n].names}
-    named = (unit for unit in heard.units if unit.is_whole and unit.names)
-    beside = any(
-        one.sort == two.sort == "word" and before.said == after.said == ","
-        and one.said in lexicon.DETERMINERS and n + 2 not in said.pointed
-        for n, (before, one, two, after) in enumerate(_in_fours(heard.units))
-    )  # fmt: skip
-    return beside or any(told.isdisjoint(unit.names) for unit in named)
+def _side(attempt: Attempt) -> Side:
+    outcome = attempt.outcome
+    goals = () if isinstance(outcome, Refusal) else outcome.goals
+    puzzled = not isinstance(outcome, Goals) and outcome.puzzled
+    return Side(_kind(outcome), goals, attempt.trouble, puzzled)
 
 
-def _in_fours(units: list[Unit]) -> Iterator[tuple[Unit, Unit, Unit, Unit]]:
-    return zip(units, units[1:], units[2:], units[3:], strict=False)
+def _kind(outcome: Outcome) -> Kind:
+    if isinstance(outcome, Goals):
+        return "goals"
+    return "question" if isinstance(outcome, Question) else "refusal"
 
 
-def _checked(text: str, index: NameIndex, before: Attempt, read: Grammar, hear: Hearing) -> Attempt:
-    """What the grammar made of a sentence, without what it read out of talk beside it."""
-    heard = hear(text, index)
-    said = heard.paraphrase()
-    if said.likely < SURE or said.text in (ASK, NOTHING):
-        return before
-    attempt = read(said.text)
-    more = list(before.goals)
-    for goal in attempt.goals:
-        if goal not in more:
-            return before
-        more.remove(goal)
-    sidelong = attempt.goals and more and all(isinstance(goal, _BY_THE_WAY) for goal in more)
-    if not sidelong or heard.likely(plainly(before.goals)) >= ODD * said.likely:
-        return before
-    return _taken(text, said, attempt, SURE) or before
-
-
-def _taken(text: str, said: Paraphrase, attempt: Attempt, least: float) -> Attempt | None:
-    """A reading of plain words to act on or to ask about; None if they are not likely enough."""
-    if said.likely >= least:
-        told = f"I take that as “{said.text.replace(' ;', ';')}”"
-        return attempt._replace(outcome=remarked(attempt.outcome, told))
-    if isinstance(attempt.outcome, Goals) and said.likely >= LIKELY:
-        asked = just_that(text, Partly("I did not get every word", attempt.outcome.goals))
-        return attempt._replace(outcome=asked)
-    return None
+def _asked(text: str, attempt: Attempt, doubt: str) -> Attempt:
+    return attempt._replace(outcome=just_that(text, Partly(doubt, attempt.goals)))

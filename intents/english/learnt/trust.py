@@ -82,7 +82,7 @@ def is_known(goals: Iterable[Goal], fields: Fields = LEARNT) -> bool:
     acts = fields["acts"].labels
     told = cast("list[_Plain]", to_builtins(tuple(goals)))
     nameless = any("superlative" in one and "name" not in one for one in _things(told))
-    return not nameless and all(_act(goal) in acts for goal in told)
+    return not nameless and all(act(goal) in acts for goal in told)
 
 
 def _things(value: object) -> Iterator[_Plain]:
@@ -116,7 +116,7 @@ def signs(one: Reading, readings: Iterable[Reading], seen: Sight, trouble: str) 
 
 def _of_acts(goals: list[_Plain], seen: Sight) -> Iterator[str]:
     """Whether the sentence as a whole asks for what was read."""
-    acts = [_act(goal) for goal in goals]
+    acts = [act(goal) for goal in goals]
     kinds, many = "+".join(sorted(set(acts))), min(len(acts), 4)
     likely = _likely(acts, goals, seen.acts)
     top = max(seen.acts, key=lambda act: seen.acts[act])
@@ -133,10 +133,11 @@ def _of_acts(goals: list[_Plain], seen: Sight) -> Iterator[str]:
         yield from (f"also={act}" for act in _SIDELONG if act in acts)
 
 
-def _act(goal: _Plain) -> str:
+def act(goal: _Plain) -> str:
+    """What kind of act a goal asks for, as it is learnt."""
     kind: str = goal["goal"]
     if kind == "for_each" and goal.get("goals"):
-        return _act(goal["goals"][-1])
+        return act(goal["goals"][-1])
     return act_of(goal)
 
 

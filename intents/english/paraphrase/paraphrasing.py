@@ -6,7 +6,6 @@ from typing import NamedTuple
 import numpy as np
 
 from intents.english.paraphrase.network import BEGIN, END, Network, shipped
-from intents.english.paraphrase.pointing import pointing
 from intents.english.paraphrase.source import SORTS, Unit, units, words_of
 from intents.english.paraphrase.wordpieces import pieces
 from intents.english.words.names import NameIndex
@@ -23,12 +22,10 @@ class Paraphrase(NamedTuple):
     Attributes:
         text: The plain words.
         likely: How likely they are by the network [0..1].
-        pointed: The numbers of the units that come back in the plain words, in order.
     """
 
     text: str
     likely: float
-    pointed: list[int]
 
 
 def read_in(
@@ -73,7 +70,6 @@ class Heard:
             network: What was learnt; by default what comes with the package.
         """
         self._net = network or shipped()
-        self._index = index
         words = words_of(text)
         self.units = units(words, index)
         spelled = [[word.raw for word in words[unit.start : unit.end]] for unit in self.units]
@@ -92,23 +88,8 @@ class Heard:
             if last == END:
                 break
             told.append(last)
-        pointed = [word - known for word in told if word >= known]
         plain = [self.units[w - known].meant if w >= known else self._net.words[w] for w in told]
-        return Paraphrase(joined(plain), float(np.exp(sure)), pointed)
-
-    def likely(self, plain: str) -> float:
-        """How likely the network would say these words instead of it [0..1]."""
-        told = pointing(plain, self.units, self._index, self._net.numbers_of)
-        if told is None:
-            return 0.0
-        writing, known = self._net.begin(self._read, self._heads), len(self._net.words)
-        at = [
-            known + word if isinstance(word, int) else self._net.numbers_of[word] for word in told
-        ]
-        sure = 0.0
-        for last, word in zip([BEGIN, *at], [*at, END], strict=True):
-            sure += float(writing.after(last)[word])
-        return float(np.exp(sure))
+        return Paraphrase(joined(plain), float(np.exp(sure)))
 
 
 def joined(plain: Sequence[str]) -> str:

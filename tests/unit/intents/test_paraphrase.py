@@ -6,16 +6,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from intents.context import Context
+from intents.english.learnt.choice import OTHER, OWN, Both, Name, Side, choice, signs
+from intents.english.learnt.field import Field
+from intents.english.learnt.trust import RIGHT, WRONG
 from intents.english.paraphrase.network import BEGIN, shipped
-from intents.english.paraphrase.paraphrasing import NOTHING, Heard, Paraphrase, joined
-from intents.english.paraphrase.pointing import pointing
+from intents.english.paraphrase.paraphrasing import ASK, NOTHING, Heard, Paraphrase, joined
 from intents.english.paraphrase.source import units, words_of
 from intents.english.paraphrase.wordpieces import pieces
+from intents.english.trouble import Partly
 from intents.english.words.names import NameIndex, index_of
-from intents.goals import Bring, Wait, to_builtins
+from intents.goals import Bring, Wait
 from intents.outcomes import Goals, Question
 from intents.parser import first_look, parse
-from intents.plain_words import plainly
 from intents.second_look import Attempt
 from intents.third_look import third_look
 from intents.vocabulary import Vocabulary
@@ -62,8 +64,8 @@ def test_what_cannot_be_kept_or_was_only_told_is_not_acted_on(said: str) -> None
 class Says(Heard):
     """What says the same of every sentence."""
 
-    def __init__(self, plain: str, likely: float, own: float = 1.0) -> None:
-        self.plain, self.sure, self.own = plain, likely, own
+    def __init__(self, plain: str) -> None:
+        self.plain = plain
         self.units = []
         self.is_whole = True
 
@@ -73,115 +75,100 @@ class Says(Heard):
         return self
 
     def paraphrase(self) -> Paraphrase:
-        """What it always says; it points at every name."""
-        named = [n for n, unit in enumerate(self.units) if unit.names]
-        return Paraphrase(self.plain, self.sure, named)
-
-    def likely(self, plain: str) -> float:
-        """How likely it would have said anything else."""
-        del plain
-        return self.own
+        """What it always says."""
+        return Paraphrase(self.plain, 0.9)
 
 
-def looked(said: str, network: Says) -> Attempt:
+def trusting(own: float, other: float) -> dict[str, Field]:
+    """What trusts the grammar's reading and the network's so much, whatever they are."""
+    odds = [[np.log(p / (1 - p)), 0.0] for p in (own, other)]
+    rows = {f"{OWN}:always": 0, f"{OTHER}:always": 1}
+    return {"choice": Field((RIGHT, WRONG), rows, np.array(odds), np.zeros((2, 2)))}
+
+
+def looked(said: str, network: Says, own: float = 0.5, other: float = 0.99) -> Attempt:
     def read(text: str) -> Attempt:
         return first_look(text, OBSERVATORY, Context())
 
-    return third_look(said, INDEX, read(said), read, hear=network)
+    return third_look(said, INDEX, read(said), read, hear=network, fields=trusting(own, other))
 
 
 STRANGE = "frobnicate the thermos over yonder by way of Ingrid somehow please"
+ORDER = Says("bring the thermos to Ingrid")
 
 
-def test_what_is_sure_is_done_what_is_likely_asked_and_what_is_neither_left() -> None:
-    order = "bring the thermos to Ingrid"
-    done = looked(STRANGE, Says(order, 0.9))
+def test_what_is_likely_is_done_what_may_be_asked_and_what_is_neither_left() -> None:
+    done = looked(STRANGE, ORDER, other=0.9)
     assert isinstance(done.outcome, Goals)
-    assert f"I take that as “{order}”" in (done.outcome.reason or "")
-    asked = looked(STRANGE, Says(order, 0.5))
+    assert f"I take that as “{ORDER.plain}”" in (done.outcome.reason or "")
+    asked = looked(STRANGE, ORDER, other=0.5)
     assert isinstance(asked.outcome, Question)
     assert asked.outcome.goals == done.outcome.goals
-    left = looked(STRANGE, Says(order, 0.2))
+    left = looked(STRANGE, ORDER, other=0.1)
     assert left.outcome == first_look(STRANGE, OBSERVATORY, Context()).outcome
+    for none in (NOTHING, ASK):
+        assert looked(STRANGE, Says(none)).outcome == left.outcome
 
 
-def test_where_there_may_be_nothing_to_do_it_is_only_asked() -> None:
-    said = "the thermos wants frobnicating over yonder by way of Ingrid somehow"
-    asked = looked(said, Says("bring the thermos to Ingrid", 1.0))
-    assert isinstance(asked.outcome, Question)
-
-
-@pytest.mark.parametrize("said", [f"if he waves, {STRANGE}", f"not the torch, {STRANGE}"])
-def test_a_condition_or_a_denial_is_never_passed_over(said: str) -> None:
+def test_what_the_grammar_names_as_not_kept_is_not_said_away() -> None:
+    said = "bring me the thermos with a warm smile, and only if the sky is clear"
     before = first_look(said, OBSERVATORY, Context())
-    assert not isinstance(before.outcome, Goals)
-    assert looked(said, Says("bring the thermos to Ingrid", 1.0)).outcome == before.outcome
-
-
-def test_a_name_that_is_lost_is_asked_about() -> None:
-    class Forgets(Says):
-        def paraphrase(self) -> Paraphrase:
-            return super().paraphrase()._replace(pointed=[])
-
-    assert not isinstance(
-        looked(STRANGE, Forgets("bring the thermos to Ingrid", 1.0)).outcome, Goals
-    )
+    assert type(before.error) is Partly
+    assert looked(said, ORDER).outcome == before.outcome
 
 
 def test_what_the_grammar_reads_from_every_word_stays() -> None:
     said = "bring the thermos from the bench to Ingrid in the library, and then nod"
-    assert isinstance(first_look(said, OBSERVATORY, Context()).outcome, Goals)
-    kept = looked(said, Says("put the notebook on the bench", 1.0, own=0.0))
-    assert kept.outcome == first_look(said, OBSERVATORY, Context()).outcome
-    assert looked(said, Says(NOTHING, 1.0, own=0.0)).outcome == kept.outcome
+    before = first_look(said, OBSERVATORY, Context())
+    assert isinstance(before.outcome, Goals)
+    for plain in ("put the notebook on the bench", NOTHING):
+        assert looked(said, Says(plain), own=0.01).outcome == before.outcome
 
 
-def test_talk_that_was_read_as_an_order_is_left_out_where_nobody_would_say_so() -> None:
+def test_talk_read_as_an_order_is_left_out_or_asked_about_where_it_is_not_trusted() -> None:
     said = "Hold on please. Could you bring the thermos to Ingrid? It is getting cold in there."
     read = first_look(said, OBSERVATORY, Context())
     assert [type(goal) for goal in read.goals] == [Wait, Bring]
-    left = looked(said, Says("bring the thermos to Ingrid", 0.9, own=0.0))
+    left = looked(said, ORDER, own=0.1)
     assert isinstance(left.outcome, Goals)
     assert left.goals == read.goals[1:]
-    assert looked(said, Says("bring the thermos to Ingrid", 0.9, own=0.1)).goals == read.goals
-    assert looked(said, Says("put the thermos on the bench", 0.9, own=0.0)).goals == read.goals
+    assert looked(said, ORDER, own=0.6).goals == read.goals
+    assert looked(said, ORDER, own=0.1, other=0.5).goals == read.goals
+    assert isinstance(looked(said, Says(NOTHING), own=0.1).outcome, Question)
 
 
-@pytest.mark.parametrize(
-    "said",
-    [
-        "bring the thermos to me", "put the red torch on the bench", "look for Ingrid at the dome",
-        "3 times : nod", "for every thermos : put it into the map chest", "come here",
-        "walk 2 m forward ; turn 90° left", "say “the sky is clear” to Ingrid",
-        "switch on the heater",
-        "if the thermos at the bench is there, bring the thermos to me", "what are you holding",
-    ],
-)  # fmt: skip
-def test_plain_words_are_read_as_the_goals_that_they_were_said_for(said: str) -> None:
-    read = first_look(said, OBSERVATORY, Context()).outcome
-    assert isinstance(read, Goals), read
-    again = first_look(plainly(read.goals), OBSERVATORY, Context()).outcome
-    assert isinstance(again, Goals)
-    assert to_builtins(again.goals) == to_builtins(read.goals)
+def test_what_a_reading_leaves_out_and_how_the_two_differ_tells_for_or_against_it() -> None:
+    goals = first_look("bring the thermos to Ingrid", OBSERVATORY, Context()).goals
+    names = [Name("object", ("thermos",), True), Name("person", ("Ingrid",), True)]
+    side = Side("goals", goals)
+    both = Both("bring Ingrid the thermos unless she waves", names, ORDER.plain, 0.9, side, side)
+    assert {"own:same", "other:same", "other:has condition: lost"} <= {
+        *signs(both, OWN), *signs(both, OTHER)
+    }  # fmt: skip
+    less = both._replace(other=Side("goals", (Wait(),)))
+    assert "other:lost=2" in signs(less, OTHER)
+    assert "own:lost=0" in signs(less, OWN)
+    assert "own:unlike" in signs(less, OWN)
+    assert 0.0 < min(choice(both)) < max(choice(both)) < 1.0
+    assert choice(both._replace(own=Side("refusal")))[0] == 0.0
 
 
-def test_the_network_says_plain_words_again_and_knows_how_likely_it_would() -> None:
-    heard = Heard("bring the thermos to Ingrid", INDEX)
-    said = heard.paraphrase()
+def test_the_network_says_plain_words_again() -> None:
+    said = Heard("bring the thermos to Ingrid", INDEX).paraphrase()
     assert said.text == "bring the thermos to Ingrid"
-    assert heard.likely(said.text) == pytest.approx(said.likely, rel=1e-3)
-    assert heard.likely("put the thermos on the bench") == 0.0  # no bench was spoken of
+    assert said.likely > 0.9
+    assert joined(["turn", "90", "°", "left"]) == "turn 90° left"
 
 
 def test_what_is_too_long_to_be_read_whole_is_left_to_the_grammar() -> None:
     rambling = f"{'incomprehensibilities ' * 40} {STRANGE}"
     assert not Heard(rambling, INDEX).is_whole
     assert Heard(STRANGE, INDEX).is_whole
-    part = Says("bring the thermos to Ingrid", 1.0)
+    part = Says(ORDER.plain)
     part.is_whole = False
     assert not isinstance(looked(STRANGE, part).outcome, Goals)
     endless = f"{STRANGE}, {'and on it goes ' * 20}"
-    assert not isinstance(looked(endless, Says("bring the thermos to Ingrid", 1.0)).outcome, Goals)
+    assert not isinstance(looked(endless, ORDER).outcome, Goals)
 
 
 def test_what_comes_next_is_a_distribution() -> None:
@@ -206,17 +193,3 @@ def test_pieces_are_the_longest_that_are_known() -> None:
     assert pieces("Telescope", known) == [2, 3]
     assert pieces("xylophone", known) == [0]
     assert pieces("telesc" + "o" * 95, known) == [0]  # no word has so many letters
-
-
-def test_what_comes_from_nowhere_cannot_be_pointed_at() -> None:
-    said = units(words_of("Ingrid, the thermos"), INDEX)
-    words = {"bring", "the", "to"}
-    assert pointing("bring the thermos to Ingrid", said, INDEX, words) == [
-        "bring",
-        "the",
-        3,
-        "to",
-        0,
-    ]
-    assert pointing("bring the notebook to Ingrid", said, INDEX, words) is None
-    assert joined(["turn", "90", "°", "left"]) == "turn 90° left"
