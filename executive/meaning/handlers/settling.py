@@ -337,7 +337,8 @@ class _Question:
         if self._query.at and not (self._query.relation or self._query.superlative):
             text = nothing_there(self._query, self._knowledge)
             away = [one for one in seen if self._is_away(one)]
-            if not away:
+            a_kind = self._query.name or self._query.category  # else all there is would be named
+            if not (away and (a_kind or len(self._alike) == 1)):
                 return failure("object_not_seen", text)
             named = [f"the {describe_entity(one)} is {self._on(one)}" for one in away]
             text += f"; {listing(named[:MOST_AWAY], 'and')}"
