@@ -19,6 +19,7 @@ from executive.meaning.handlers import handling, moving, people, seeing, steps
 from executive.meaning.handlers.settling import counted, settle
 from executive.meaning.identify import Scene, Unsettled, cannot
 from executive.meaning.knowledge import Knowledge
+from executive.meaning.stopovers import without_stopovers
 from executive.skills.pick import PickParams
 from executive.trees.parts import Branch, Errand, Kept, Part, Series, errands
 from intents import goals
@@ -63,6 +64,7 @@ def sequence(asked: tuple[goals.Goal, ...], scene: Scene) -> tuple[Part, ...]:
         CannotMean: if one of them has no meaning here, or no skill does it.
     """
     parts: list[Part] = []
+    asked = without_stopovers(asked, scene.knowledge)
     for number, goal in enumerate(asked):
         held, spoken_of = list(scene.held), scene.spoken_of
         try:

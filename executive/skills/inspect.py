@@ -72,11 +72,7 @@ class Inspect(ScriptedSkill[InspectParams]):
             return
         for place in survey.places:
             if self._may_hide(survey, place):
-                raise give_up(
-                    "place_not_seen",
-                    f"could not look over the {place.name}; {survey.words()}",
-                    place=place.id,
-                )
+                raise give_up("place_not_seen", _unseen_words(survey, place), place=place.id)
 
     def _survey(self) -> Survey:
         body, wanted = self.body, self.parameters
@@ -122,3 +118,11 @@ class Inspect(ScriptedSkill[InspectParams]):
         if X_WO is None or track.held_by is not None:
             return False
         return not places or any(stands_on(X_WO, place) for place in places)
+
+
+def _unseen_words(survey: Survey, place: Place) -> str:
+    """That something may stand where a place could not be seen."""
+    share = survey.seen_share(place)
+    if not share:
+        return f"could not look over the {place.name}; {survey.words()}"
+    return f"saw only {100 * share:.0f} % of the {place.name}: the rest is hidden from all sides"

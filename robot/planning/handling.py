@@ -67,9 +67,9 @@ def search(
         )
         tried, total = tried + len(candidates), total + proposed
         choice = _first_good(body, problem, candidates, tally, last=stage.last)
-        if choice is not None:
+        if choice is not None and not choice.strained:
             return choice
-    return _explain(body, problem, floor, (tried, total), tally)
+    return tally.best or _explain(body, problem, floor, (tried, total), tally)
 
 
 def _first_good(
@@ -84,12 +84,13 @@ def _first_good(
             if choice is not None and choice.score > tally.score:
                 tally.best = choice
             best = tally.best
-            if best is not None and best.steadiness == 1.0:
+            if best is not None and best.steadiness == 1.0 and not best.strained:
                 patience -= 1
                 if best.score >= GOOD or not patience:
                     return best
-        if tally.best is not None and tally.best.steadiness == 1.0:
-            return tally.best
+        best = tally.best
+        if best is not None and best.steadiness == 1.0 and (last or not best.strained):
+            return best
     return tally.best
 
 

@@ -17,6 +17,10 @@ from robot.planning.solids import Solid
 from robot.planning.stances import Candidates
 from robot.se3 import Array
 
+LEAST_MARGIN = 0.02
+"""With less the arm is at a joint's limit or stretched out: it does not follow the object up, and
+put a mug down beside its place at 1.10 m."""
+
 
 @dataclass(frozen=True, slots=True)
 class HandlingProblem:
@@ -73,6 +77,11 @@ class Choice:
     steadiness: float
     score: float
     q_away: Array | None = None
+
+    @property
+    def strained(self) -> bool:
+        """Whether the arm has nothing left at one of the poses: for where nothing else leads."""
+        return self.margin < LEAST_MARGIN
 
     def over(self, body: Body) -> OverEdge | None:
         """How the arm comes over an edge; None in the postures that are not for that."""

@@ -135,7 +135,8 @@ class LookRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     """Where to look from next, standing at `start`, to see points of surfaces.
 
     `points_W` are points [m], and `worth` what it is worth to see each of them (more: sooner).
-    With `stay` the robot is to turn on the spot at most.
+    With `stay` the robot is to turn on the spot at most. `vain_m` are places on the floor (x, y)
+    from where points, by their index, did not show: they are looked at from elsewhere, if they can.
     """
 
     start: Stance
@@ -143,6 +144,7 @@ class LookRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     worth: tuple[float, ...]
     around: Surroundings
     stay: bool = False
+    vain_m: dict[int, tuple[float, float]] = {}
 
 
 class LookPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):

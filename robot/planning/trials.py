@@ -11,7 +11,7 @@ from robot.messages import Side
 from robot.model.body import SIDES
 from robot.planning import reach
 from robot.planning.checks import END, Checker
-from robot.planning.handling_problem import Choice, HandlingProblem, Tally
+from robot.planning.handling_problem import LEAST_MARGIN, Choice, HandlingProblem, Tally
 from robot.planning.numerics import Mask
 from robot.planning.reach import Targets
 from robot.planning.robot_body import Body
@@ -33,6 +33,8 @@ OUTWARDS = 0.4
 """How far out it swings for a metre up."""
 WOBBLE_COST = 1.0
 SWAY_COST = 0.6
+STRAIN_COST = 2.0
+"""Of a pose that leaves the arm nothing: more than all costs of one that does."""
 MAX_TURN_RAD = 1.2
 """Most a joint turns on the straight line to the object."""
 LIFT_GAIN = 0.05
@@ -252,6 +254,7 @@ def _draft(
     i, k = at
     steady = float(poses.steady[k, i])
     margin = float(np.min(reach.margins(body.arms[entry.side], poses.q[[0, 2, k], i])))
+    strain = STRAIN_COST if margin * steady < LEAST_MARGIN else 0.0
     return Choice(
         side=entry.side,
         candidate=entry.candidate,
@@ -265,7 +268,7 @@ def _draft(
         q_ready=poses.q[k, i],
         margin=margin * steady,
         steadiness=steady,
-        score=margin - float(entry.candidate.cost[0]) - WOBBLE_COST * (1.0 - steady),
+        score=margin - float(entry.candidate.cost[0]) - WOBBLE_COST * (1.0 - steady) - strain,
     )
 
 

@@ -45,6 +45,9 @@ SET_OFF_S, TURN_S, LOOK_S = 5.0, 1.5, 0.7
 SWAY_M, NARROW_S_PER_M = 0.13, 120.0
 """Who stands sways, and steps in some centimetres off: with no more than the arms' own room they
 touched walls or furniture in 7 of 30 tasks. A place that lacks all of it costs 16 s."""
+APART_M = 0.3
+"""A point that did not show is looked at from so far away from there: planned lines of sight pass
+edges that the real ones, from a body that sways and stops centimetres off, do not."""
 
 
 class _View(msgspec.Struct, frozen=True):
@@ -82,9 +85,10 @@ def plan_look(body: Body, request: LookRequest) -> LookPlan:
     near, reached = atlas.shown_at(points, start[:2])[:, None], np.isfinite(lengths_m)
     near = _past(things, points, near, atlas.eyes_W(np.array([start[:2]])))[:, 0]
     turns = floor.clearance_m(*start[:2]) >= radius_m
+    wanted, wanted_here = _from_elsewhere(request, atlas.cells, shown & reached, near)
     views = [
-        *_views_here(points, worth, near, start, turns=turns),
-        *_views_there(points, worth, shown & reached, atlas.cells, there_s),
+        *_views_here(points, worth, wanted_here, start, turns=turns),
+        *_views_there(points, worth, wanted, atlas.cells, there_s),
     ]
     beyond = shown.any(axis=1) & ~near & ~(shown & reached).any(axis=1)
     cut_off = tuple(np.flatnonzero(beyond).tolist())
@@ -99,6 +103,20 @@ def plan_look(body: Body, request: LookRequest) -> LookPlan:
         length_m=0.0 if best.cell is None else float(lengths_m[best.cell]),
         cut_off=cut_off,
     )
+
+
+def _from_elsewhere(
+    request: LookRequest, cells: Array, shown: Mask, near: Mask
+) -> tuple[Mask, Mask]:
+    """The same views without those from where a point did not show, if others are left."""
+    shown, near = shown.copy(), near.copy()
+    for number, vain in request.vain_m.items():
+        apart = np.hypot(*(cells - vain).T) >= APART_M
+        here = math.dist(vain, request.start[:2]) >= APART_M
+        if (shown[number] & apart).any() or (near[number] and here):
+            shown[number] &= apart
+            near[number] &= here
+    return shown, near
 
 
 def _past(things: Screens, points: Array, shown: Mask, eyes_W: Array) -> Mask:

@@ -20,6 +20,7 @@ from executive.skills.look import LookParams
 from executive.skills.navigate import NavigateParams
 from executive.trees.parts import Errand, GiveUp, Part, Series, Settle
 from intents import goals, relations
+from intents.english.trouble import listing
 from intents.grounding import (
     Ambiguous,
     Entity,
@@ -36,6 +37,8 @@ from robot.se3 import SE3
 
 BESIDE_M = 1.2
 """Things beside a piece of furniture, or at a spot of the floor, stand on what is that near."""
+MOST_AWAY = 3
+"""So many things that are elsewhere than was said are named."""
 CLEARLY_NEARER = 0.7
 """Of two things behind the bottle the one is meant that is nearer to it by so much."""
 
@@ -334,10 +337,13 @@ class _Question:
         if self._query.at and not (self._query.relation or self._query.superlative):
             text = nothing_there(self._query, self._knowledge)
             away = [one for one in seen if self._is_away(one)]
-            if len(self._alike) > 1 or not away:
+            a_kind = self._query.name or self._query.category  # else all there is would be named
+            if not (away and (a_kind or len(self._alike) == 1)):
                 return failure("object_not_seen", text)
-            text += f"; the {describe_entity(away[0])} is {self._on(away[0])}"
-            cure = f"say it without “{_on(self._query.at, self._knowledge)}”"
+            named = [f"the {describe_entity(one)} is {self._on(one)}" for one in away]
+            text += f"; {listing(named[:MOST_AWAY], 'and')}"
+            without = f"say it without “{_on(self._query.at, self._knowledge)}”"
+            cure = without if len(self._alike) == 1 else "say which one, and where it is"
             return failure("object_not_seen", text, suggestion=cure)
         alike = [e for e in seen if e.id in self._alike]
         others = [f"the {describe_entity(e)}" + (f" at the {e.at}" if e.at else "") for e in alike]

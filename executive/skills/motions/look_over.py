@@ -72,12 +72,12 @@ def look_over(body: Body, survey: Survey, until: Until, *, stay: bool = False) -
         except GaveUp as end:
             if end.failure.code not in NO_WAY:
                 raise
-            survey.tried(rows)
+            survey.tried(rows, plan.stance[:2])
             continue
         for p_W in plan.gazes_W:
             if (yield from _gaze(body, survey, p_W, rows, until)):
                 return True
-        survey.tried(rows)
+        survey.tried(rows, plan.stance[:2])
 
 
 def stand_to_see(body: Body, p_W: Vector3) -> Script[bool]:
@@ -106,6 +106,7 @@ def _next_view(body: Body, survey: Survey, *, stay: bool) -> Script[tuple[LookPl
             worth=survey.worth(left),
             around=surroundings(body),
             stay=stay,
+            vain_m=survey.vain_m(left),
         )
         plan = yield from ask_view_past_people(body, request)
         survey.cut_off(left[list(plan.cut_off)])

@@ -82,6 +82,7 @@ class Survey:
         self._floor = np.arange(len(self._points)) >= count
         self._seen, self._given_up, self._cut_off = np.zeros((3, len(self._points)), dtype=bool)
         self._tries = np.zeros(len(self._points), dtype=int)
+        self._vain_m: dict[int, tuple[float, float]] = {}
 
     # --- what is left ---
 
@@ -100,6 +101,11 @@ class Survey:
     def worth(self, rows: Rows) -> tuple[float, ...]:
         """What it is worth to see each of them."""
         return tuple(self._worth[rows].tolist())
+
+    def vain_m(self, rows: Rows) -> dict[int, tuple[float, float]]:
+        """From where on the floor those of some rows did not show, by their place among them."""
+        found = {k: self._vain_m.get(row) for k, row in enumerate(rows.tolist())}
+        return {k: at for k, at in found.items() if at is not None}
 
     def names(self, rows: Rows) -> str:
         """What they belong to, for people."""
@@ -124,10 +130,11 @@ class Survey:
             if rows is not None and rows.stop - rows.start == len(one.seen_s):
                 self._seen[rows] |= np.array(one.seen_s) >= self._since_s
 
-    def tried(self, rows: Rows) -> None:
-        """A view of them is over; what did not show is not tried for ever."""
+    def tried(self, rows: Rows, at_m: tuple[float, float]) -> None:
+        """A view of them, from a place on the floor, is over; what never shows is let be."""
         self._seen[rows] |= self._floor[rows]  # the world model keeps no floor
         self._tries[rows] += 1
+        self._vain_m.update(dict.fromkeys(rows.tolist(), at_m))
         self._given_up |= self._tries >= TRIES
 
     def give_up(self, rows: Rows) -> None:

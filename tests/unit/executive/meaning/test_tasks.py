@@ -488,6 +488,20 @@ def test_a_thing_is_taken_from_where_it_was_said_to_be_and_from_nowhere_else(tex
     assert away.suggestion == "say it without “on the table”"
 
 
+def test_of_several_that_are_not_where_it_was_said_each_is_told_where_it_is():
+    outcome = request("put a cup that is on the table on the lower shelf", WHERE)
+    assert isinstance(outcome, Understood)
+    (there,) = [part for _, part in walk(outcome.task) if isinstance(part, Settle)]
+    away = there.question(board_with(cup_red=(-2.0, 0.1, 0.9), cup_blue=(-2.0, 0.2, 0.4)))
+    assert isinstance(away, Failure)
+    told = "the red cup is on the upper shelf and the blue cup is on the lower shelf"
+    assert away.cause.endswith(f"on the table; {told}")
+    assert away.suggestion == "say which one, and where it is"
+    unseen = there.question(board_with())
+    assert isinstance(unseen, Failure)
+    assert unseen.cause.endswith("on the table")
+
+
 def test_the_place_that_was_said_is_looked_at_before_it_is_denied():
     bottle = Entity(id="bottle", name="bottle", at="upper shelf", p_WO=(-2.0, 0.0, 0.9))
     entities = [one for one in WHERE.knowledge.entities() if one.id != "bottle"]

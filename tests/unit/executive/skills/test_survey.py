@@ -53,8 +53,16 @@ def test_what_does_not_show_is_tried_a_few_times_only() -> None:
     survey = survey_of(place("desk"))
     for _ in range(TRIES):
         assert len(survey.left)
-        survey.tried(survey.left)
+        survey.tried(survey.left, (0.0, 0.0))
     assert len(survey.left) == 0
+
+
+def test_it_is_known_from_where_a_point_did_not_show() -> None:
+    survey = survey_of(place("desk"), place("bed", 3.0))
+    first, *_, last = survey.left
+    survey.tried(np.array([first, last]), (1.0, 2.0))
+    rows = np.array([last, first + 1])
+    assert survey.vain_m(rows) == {0: (1.0, 2.0)}
 
 
 def test_the_floor_below_where_something_was_is_looked_at_once() -> None:
@@ -62,7 +70,7 @@ def test_the_floor_below_where_something_was_is_looked_at_once() -> None:
     points = np.array(survey.points_W(survey.left))
     assert (points[:, 2] < 0.1).all()
     assert (np.hypot(points[:, 0] - 1.0, points[:, 1] - 0.2) <= 0.5 + 1e-9).all()
-    survey.tried(survey.left)
+    survey.tried(survey.left, (0.0, 0.0))
     assert len(survey.left) == 0
 
 

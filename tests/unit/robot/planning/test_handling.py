@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from dataclasses import replace
 
 import msgspec
 import numpy as np
@@ -12,6 +13,7 @@ from robot.messages import PersonInfo, Shape, Side
 from robot.planning import handling
 from robot.planning.checks import END
 from robot.planning.floor import Floor
+from robot.planning.handling_problem import Choice
 from robot.planning.requests import (
     BodyPosture,
     Held,
@@ -27,6 +29,7 @@ from robot.planning.robot_body import Body
 from robot.planning.scene import HELD
 from robot.planning.solids import solids_of
 from robot.planning.solve import Solver
+from robot.planning.trials import STRAIN_COST
 from robot.se3 import SE3
 from tests.fakes.planning_room import (
     BOARDS_M,
@@ -302,6 +305,38 @@ def test_an_arm_that_goes_up_keeps_clear_of_the_head_wherever_it_looks(solver: S
         scene.pose(standing.X_SB, q)
         scene.update()
         assert not scene.touches(scene.arm_geoms(plan.side))
+
+
+@pytest.mark.parametrize(
+    ("earlier", "over", "taken"),
+    [(0.3, 0.5, 0.3), (0.0, 0.1, 0.1), (0.0, None, 0.0), (0.0, 0.0, 0.0), (None, 0.2, 0.2)],
+)
+def test_an_arm_that_has_nothing_left_is_for_where_nothing_else_leads(
+    solver: Solver,
+    monkeypatch: pytest.MonkeyPatch,
+    earlier: float | None,
+    over: float | None,
+    taken: float,
+) -> None:
+    """By the margins that each stage of the search finds, of poses at their limits: 0."""
+    plan = pick(solver, surroundings(on_table(-0.1, 0.2)))
+    assert isinstance(plan, PickPlan)
+    found: list[Choice] = []
+    passing = handling.passing
+
+    def staged(body, problem, batch, tally, *, last=False):
+        if not found:
+            good = passing(body, problem, batch, tally, last=last)
+            found.append(next(choice for choice in good if choice is not None))
+        margin = over if last else earlier
+        if margin is not None:
+            strain = STRAIN_COST if margin == 0.0 else 0.0
+            yield replace(found[0], margin=margin, steadiness=1.0, score=margin - last - strain)
+
+    monkeypatch.setattr(handling, "passing", staged)
+    plan = pick(solver, surroundings(on_table(-0.1, 0.2)))
+    assert isinstance(plan, PickPlan)
+    assert plan.margin == taken
 
 
 @pytest.mark.parametrize(("height", "deep"), [(0.98, 0.45), (1.05, 0.35)])

@@ -61,6 +61,7 @@ def look(
     worth: dict[str, float] | None = None,
     stay: bool = False,
     things: tuple[ObjectPose, ...] = (),
+    vain_m: tuple[float, float] | None = None,
 ) -> tuple[LookPlan, list[str], list[str]]:
     """The plan, and which places it shows and which it calls cut off."""
     points = [(place.id, tuple(p)) for place in places for p in place.samples().tolist()]
@@ -71,6 +72,7 @@ def look(
             worth=tuple((worth or {}).get(name, 1.0) for name, _ in points),
             around=Surroundings(map=world_map, objects=things),
             stay=stay,
+            vain_m=dict.fromkeys(range(len(points)), vain_m) if vain_m else {},
         )
     )
     assert isinstance(plan, LookPlan), plan
@@ -105,6 +107,35 @@ def test_what_stands_behind_a_box_is_seen_from_another_side(solver: Solver) -> N
     assert screens.in_sight(np.array([1.38, 0.0, 0.79]), eye).all()
     _, sees, _ = look(solver, world_map, place, start=(0.0, 0.0, 0.0), things=(box,))
     assert sees == ["table"]  # what is under the box is seen by seeing the box
+
+
+@pytest.mark.parametrize("start", [(1.0, 1.2, 0.0), (2.4, 0.9, -0.5), (4.4, 0.6, 2.0)])
+def test_what_did_not_show_is_looked_at_from_elsewhere(
+    solver: Solver, start: tuple[float, float, float]
+) -> None:
+    body, boards = rack("rack", 3.0, 0.16, math.pi / 2)
+    world_map = map_of(body, bounds_m=(0.0, -0.2, 6.0, 2.5))
+    first, seen, _ = look(solver, world_map, *boards, start=start)
+    assert first.stance is not None
+    at = first.stance[:2]
+    again, sees, _ = look(solver, world_map, *boards, start=first.stance, vain_m=at)
+    assert again.stance is not None
+    assert math.dist(again.stance[:2], at) > 0.25
+    assert seen
+    assert sees
+
+
+def test_a_view_that_is_the_only_one_is_tried_again(solver: Solver) -> None:
+    body, place = table("table", 1.2, 0.0)
+    room = (wall("left", -0.4, 0.35, 1.6, 0.43), wall("right", -0.4, -0.43, 1.6, -0.35))
+    world_map = map_of(body, *room, bounds_m=(0.3, -0.35, 1.5, 0.35))
+    first, seen, _ = look(solver, world_map, place, start=(0.6, 0.0, 0.0))
+    assert first.stance is not None
+    again, sees, _ = look(
+        solver, world_map, place, start=first.stance, vain_m=first.stance[:2], stay=True
+    )
+    assert again.stance == pytest.approx(first.stance)
+    assert sees == seen == ["table"]
 
 
 def test_racks_that_stand_back_to_back_are_seen_from_their_own_aisles(solver: Solver) -> None:
