@@ -37,8 +37,7 @@ def arm(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> N
         if status.get(name) != ENABLED
     ]
     if refused:
-        frames = [(one.bus, one.family.disable(one.id)) for one in joints.joints.values()]
-        exchange(ports, clock, frames, lambda _: None)
+        disable(ports, clock, joints, ranges)
         raise DriverError(f"all motors are disabled again: {', '.join(refused)}")
 
 
@@ -50,6 +49,18 @@ def leave_damping(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ran
         frames.append((one.bus, one.family.command(one.id, most, Target(0.0, 0.0, 0.0, kd, 0.0))))
     exchange(ports, clock, frames, lambda _: None)
     _set_watchdogs(ports, clock, joints, 0.0)
+
+
+def disable(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> list[str]:
+    """Let every motor go, so that it gives no torque; the joints that were not seen to do so."""
+    still = dict(joints.joints)
+    for wait_s in WAITS_S:
+        frames = [(one.bus, one.family.disable(one.id)) for one in still.values()]
+        told = _told_by(ports, clock, joints, ranges, frames, wait_s=wait_s)
+        still = {name: one for name, one in still.items() if told.get(name, ENABLED) == ENABLED}
+        if not still:
+            break
+    return list(still)
 
 
 def _set_watchdogs(ports: Ports, clock: Clock, joints: JointMap, timeout_s: float) -> list[str]:
@@ -89,6 +100,26 @@ def _units(joint: JointMotor, timeout_s: float) -> int:
 
 def _enable(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> dict[str, int]:
     """The status of each after it was told to: of those that answered."""
+    status: dict[str, int] = {}
+    for wait_s in WAITS_S:
+        missing = [one for name, one in joints.joints.items() if status.get(name) != ENABLED]
+        if not missing:
+            break
+        frames = [(one.bus, one.family.enable(one.id)) for one in missing]
+        status |= _told_by(ports, clock, joints, ranges, frames, wait_s=wait_s)
+    return status
+
+
+def _told_by(
+    ports: Ports,
+    clock: Clock,
+    joints: JointMap,
+    ranges: list[Ranges],
+    frames: list[tuple[str, Frame]],
+    *,
+    wait_s: float,
+) -> dict[str, int]:
+    """Send frames, and hear for a while which status each joint's motor tells."""
     by_reply = {
         (one.bus, one.answers_as): (name, most)
         for (name, one), most in zip(joints.joints.items(), ranges, strict=True)
@@ -104,12 +135,7 @@ def _enable(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) 
         if told is not None:
             status[name] = told.status
 
-    for wait_s in WAITS_S:
-        missing = [one for name, one in joints.joints.items() if status.get(name) != ENABLED]
-        if not missing:
-            break
-        frames = [(one.bus, one.family.enable(one.id)) for one in missing]
-        exchange(ports, clock, frames, take, wait_s=wait_s)
+    exchange(ports, clock, frames, take, wait_s=wait_s)
     return status
 
 

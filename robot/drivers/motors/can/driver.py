@@ -82,6 +82,7 @@ class CanMotors(Closing):
         *,
         ports: Callable[[], Ports],
         tell: Callable[[str], None] = _nobody,
+        lets_go: bool = False,
     ) -> None:
         """Know the motors; nothing is opened.
 
@@ -90,11 +91,14 @@ class CanMotors(Closing):
             clock: of its periods.
             ports: opens its buses.
             tell: hears a line of every alarm, and at the end how well replies came.
+            lets_go: whether motors are disabled at the end, and so give no torque, in place of
+                damping on by themselves: for one joint on a bench, not for a robot on its feet.
         """
         self.joints = joints
         self.alarms = Alarms()
         self.late = 0
         self._tell, self._told = tell, frozenset[str]()
+        self._lets_go = lets_go
         self._periods = self._lost_before = 0
         self._clock, self._opens = clock, ports
         self._motors = list(joints.joints.values())
@@ -160,12 +164,21 @@ class CanMotors(Closing):
         self.reception = Reception(self.joints, self.ranges, self._coding)
 
     def close(self) -> None:
-        """Leave the motors damping for themselves, if they are commanded from here, and close."""
+        """Leave the motors damping for themselves, if they are commanded from here, and close.
+
+        Raises:
+            DriverError: if they were to be disabled, and one was not seen to do so.
+        """
         ports, self._ports = self._ports, None
         if ports is None:
             return
         try:
-            if self._is_armed:
+            if self._is_armed and self._lets_go:
+                on = arming.disable(ports, self._clock, self.joints, self.ranges)
+                if on:
+                    text = f"not seen to let go: {', '.join(on)}"
+                    raise DriverError(f"{text} (cut the power before you touch them)")
+            elif self._is_armed:
                 arming.leave_damping(ports, self._clock, self.joints, self.ranges)
         finally:
             self._is_armed = False
