@@ -2,7 +2,7 @@
 
 Only the motor of that joint is spoken to. It is enabled by `jog` alone, with a share of its torque,
 and gives none when that ends, however it ends: at its goal, by Ctrl-C, by an alarm. A program that
-is killed leaves a motor that lets go after the map's `watchdog_s`.
+is killed leaves a motor that lets go after `WATCHDOG_S`.
 """
 
 from __future__ import annotations
@@ -37,6 +37,8 @@ STIFF_RAD = 0.10
 """At this distance from its target a joint gives all the torque that it may."""
 DAMPING_SHARE = 0.05
 SETTLES_S, DAMPS_S = 0.3, 0.5
+RATE_HZ, WATCHDOG_S = 100, 0.05
+"""A slow joint needs no more commands, and a busy laptop then loses no reply to speak of."""
 LEAST_SPAN_S = 0.2
 
 
@@ -46,7 +48,7 @@ def opened(joints: JointMap, clock: Clock, opens: Opens | None) -> Ports:
 
 
 def only(joints: JointMap, name: str) -> JointMap:
-    """The map of one joint and its bus.
+    """The map of one joint and its bus, at a slow rate.
 
     Raises:
         ConfigError: there is no such joint, with the nearest.
@@ -55,8 +57,13 @@ def only(joints: JointMap, name: str) -> JointMap:
     if joint is None:
         cure = nearest(name, list(joints.joints)) or f"one of {', '.join(joints.joints)}"
         raise ConfigError([Problem(f"there is no joint {name!r}", joints.file, suggestion=cure)])
-    buses = {joint.bus: joints.buses[joint.bus]}
-    return msgspec.structs.replace(joints, buses=buses, joints={name: joint})
+    return msgspec.structs.replace(
+        joints,
+        rate_hz=min(RATE_HZ, joints.rate_hz),
+        watchdog_s=max(WATCHDOG_S, joints.watchdog_s),
+        buses={joint.bus: joints.buses[joint.bus]},
+        joints={name: joint},
+    )
 
 
 # --- zero --------------------------------------------------------------------------------------
@@ -278,7 +285,7 @@ class _Jog:
                 return "blocked", f"it is {lag_rad:.2f} rad behind ({cure})"
             self._command(target_rad, self._kp, DAMPING_SHARE * self._kp)
             if (alarms := self._driver.alarms).level >= Level.HOLD:
-                return "alarm", str(alarms.on[0])
+                return "alarm", f"{alarms.on[0].cause} ({alarms.on[0].cure})"
         return "there", ""
 
     def _target(self, passed_s: float) -> float:

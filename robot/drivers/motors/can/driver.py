@@ -65,7 +65,7 @@ class CanMotors(Closing):
     """All motors of a joint map.
 
     A command is sent once, replies are awaited until the next period begins. What they tell, and
-    that they do not, sounds `alarms`; from HOLD on it is those that decide what is sent.
+    that they do not, sounds `alarms`; at HOLD it is those that decide what is sent.
 
     Attributes:
         joints: the map, in the order of every array.
@@ -286,6 +286,7 @@ class CanMotors(Closing):
             age_s=now_s - heard.heard_s,
             watchdog=not self._is_armed or let_go,
             command_stamp_s=self._sent.stamp_s if self._sent is not None else -np.inf,
+            alarms=self.alarms.messages() if self._is_armed else (),
         )
 
     def _tell_alarms(self, now_s: float) -> None:
@@ -306,7 +307,7 @@ class CanMotors(Closing):
     def write(self, command: MotorCommand) -> MotorCommand:
         """Send a command, limited; returns what the frames say.
 
-        While an alarm says HOLD or SIT, the last targets are sent in its place.
+        While an alarm says HOLD, the last targets are sent in its place.
 
         Raises:
             DriverError: if a value is not finite or a shape is wrong (nothing is sent), another
@@ -333,8 +334,7 @@ class CanMotors(Closing):
 
     def _decided(self, command: MotorCommand, q: Array) -> MotorCommand:
         """The command, or what an alarm wants in its place."""
-        level = self.alarms.level
-        if level < Level.HOLD:
+        if self.alarms.level != Level.HOLD:
             self._held = None
             return command
         if self._sent is None:

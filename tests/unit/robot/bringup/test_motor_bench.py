@@ -79,13 +79,13 @@ def test_jog_moves_one_joint_as_far_as_asked_and_lets_it_go(bench: Bench):
 
 def test_only_the_motor_of_that_joint_is_ever_enabled_or_given_a_watchdog(bench: Bench):
     seen = set()
-    for look in range(1, 2000, 7):
+    for look in range(1, 600, 7):
         bench.ports.happens[look] = lambda: seen.add(
             tuple(m.status for m in bench.rig.bench.devices)
         )
     bench.jog()
     assert seen == {(0, 0, 0), (0, 1, 0)}
-    assert [motor.registers[9] for motor in bench.rig.bench.devices] == [0, 400, 0]
+    assert [motor.registers[9] for motor in bench.rig.bench.devices] == [0, 1000, 0]
 
 
 def test_it_is_never_faster_than_asked(bench: Bench):
@@ -97,7 +97,7 @@ def test_it_is_never_faster_than_asked(bench: Bench):
     assert 0.15 < max(speeds) < 0.35
 
 
-@pytest.mark.parametrize("look", [3, 20, 100, 400])
+@pytest.mark.parametrize("look", [3, 20, 60, 120])
 def test_ctrl_c_at_any_moment_leaves_no_torque(bench: Bench, look: int):
     bench.ports.happens[look] = interrupt
     try:
@@ -110,8 +110,8 @@ def test_ctrl_c_at_any_moment_leaves_no_torque(bench: Bench, look: int):
 
 
 def test_a_second_ctrl_c_while_it_damps_leaves_no_torque_either(bench: Bench):
-    bench.ports.happens[100] = interrupt
-    bench.ports.happens[120] = interrupt
+    bench.ports.happens[60] = interrupt
+    bench.ports.happens[80] = interrupt
     with pytest.raises(KeyboardInterrupt):
         bench.jog()
     assert 1 not in bench.statuses()
@@ -135,7 +135,7 @@ def test_a_motor_that_is_unplugged_on_the_way_ends_it_within_a_few_periods(bench
         motor.trouble.silent = True
         at.append(bench.rig.clock.now_s())
 
-    bench.ports.happens[200] = unplug
+    bench.ports.happens[60] = unplug
     with pytest.raises(DriverError, match="not seen to let go: elbow"):
         bench.jog(by_rad=0.6)
     assert bench.rig.clock.now_s() - at[0] < DAMPED_S
