@@ -199,8 +199,9 @@ class ControlLoop:
         """Begin to get up; refused on the feet, and by a robot that knows no way."""
         down = self.mode == "fallen" or (self.mode == "damping" and self.posture.lies)
         able = self.description.getting_up is not None
-        if not down or not able:
+        if (broken := self._lowering.reason) is not None or not down or not able:
             detail = "this robot knows no way to get up" if down else "it does not lie on the floor"
+            detail = detail if broken is None else f"a motor is broken: {broken.cause}"
             self.legs.activity = Activity(id=command.id, status="failed", detail=detail)
             return
         self.limits.reset()
@@ -255,7 +256,7 @@ class ControlLoop:
             if taking_over:
                 self._take_over(state)
         self._sample = sample
-        if state.alarms and self._lowering.heed(state.alarms, state.stamp_s):
+        if state.alarms and self._lowering.heed(state.alarms):
             self._lower()
         self.latency.felt(state)
         self._gyro += imu.gyro_rad_s
@@ -377,9 +378,6 @@ class ControlLoop:
             self._fall(why)
         elif self.mode != "rising" or self.legs.activity.status == "done":
             self.mode = "stand" if self.legs.gait.phase == "stand" else "walk"
-            is_low = self.legs.activity.status == "done"
-            if self._lowering.is_over(self._sample.motors.stamp_s, is_low=is_low):
-                self.mode = "damping"
 
     def _fall(self, why: str) -> None:
         """Damp, and say so."""

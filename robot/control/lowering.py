@@ -1,4 +1,8 @@
-"""What is left to a robot one of whose motors broke: it squats on what it has, then damps."""
+"""What is left to a robot one of whose motors broke: it squats on what it has, and stays there.
+
+Low, it falls least deep if more breaks, and a person can take it. It takes no orders for its legs
+any more; who starts it anew has looked at the motor before.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +13,6 @@ from robot.messages import MotorAlarm
 
 LOW_SHARE = 0.7
 """Of the standing height: about as low as it can squat."""
-SQUAT_S = 4.0
-"""If it is not down by then, it never will be."""
 
 
 class Lowering:
@@ -25,9 +27,8 @@ class Lowering:
         """Of a robot that stands at such a height of its base."""
         self.reason: Failure | None = None
         self.height_m = LOW_SHARE * height_m
-        self._begun_s = 0.0
 
-    def heed(self, alarms: Sequence[MotorAlarm], now_s: float) -> bool:
+    def heed(self, alarms: Sequence[MotorAlarm]) -> bool:
         """Look at the alarms of a period; whether the lowering begins with it."""
         if self.reason is not None or not alarms or alarms[0].level != "SIT":
             return False
@@ -35,9 +36,4 @@ class Lowering:
         text = f"{worst.who}: {worst.cause}"
         evidence = {"who": worst.who, "alarm": worst.code}
         self.reason = failure("motor_fault", text, suggestion=worst.cure, **evidence)
-        self._begun_s = now_s
         return True
-
-    def is_over(self, now_s: float, *, is_low: bool) -> bool:
-        """Whether the motors may damp now."""
-        return self.reason is not None and (is_low or now_s - self._begun_s > SQUAT_S)

@@ -320,6 +320,23 @@ def test_a_motor_that_let_go_is_armed_again_by_a_reset_alone(rig: Rig):
         assert {motor.status for motor in rig.bench.devices} == {1}
 
 
+def test_at_sit_commands_pass_so_that_the_robot_can_be_lowered_and_the_state_says_why(rig: Rig):
+    with rig.driver as driver:
+        rig.cycle(300, q=0.4)
+        rig.motor("wrist").trouble.silent = True
+        rig.cycle(5, q=0.6)
+        assert rig.cycle(1).alarms[0].level == "HOLD"
+        held = driver.write(rig.hold(0.6)).q_des
+        driver.read()
+        rig.cycle(4, q=0.6)
+        state = rig.cycle(150, q=0.6)
+        (alarm,) = state.alarms
+        assert (alarm.code, alarm.who, alarm.level) == ("silent", "wrist", "SIT")
+        assert alarm.cure
+        assert held[1] < 0.5
+        assert state.q[1] == pytest.approx(0.6, abs=0.06)  # the elbow, which is well, obeys
+
+
 # --- buses that fail ---------------------------------------------------------------------------
 
 
