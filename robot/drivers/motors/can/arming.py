@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import msgspec
+
 from robot.clock import Clock
 from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.interview import WAITS_S, Answers, exchange, read_registers
@@ -63,6 +65,15 @@ def disable(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) 
     return list(still)
 
 
+def watchdogs(joints: JointMap, timeout_s: float) -> list[tuple[str, Frame]]:
+    """What sets the watchdogs of all motors that have one in a register."""
+    return [
+        (one.bus, asking.write(one.id, asking.settings.watchdog, _units(one, timeout_s)))
+        for one in joints.joints.values()
+        if (asking := one.family.asking) is not None
+    ]
+
+
 def _set_watchdogs(ports: Ports, clock: Clock, joints: JointMap, timeout_s: float) -> list[str]:
     """Write them and read them back; who did not take it."""
     asked = {name: one for name, one in joints.joints.items() if one.family.asking is not None}
@@ -70,12 +81,8 @@ def _set_watchdogs(ports: Ports, clock: Clock, joints: JointMap, timeout_s: floa
         return []
     missing = dict(asked)
     for wait_s in WAITS_S:
-        frames: list[tuple[str, Frame]] = []
-        for one in missing.values():
-            if (asking := one.family.asking) is not None:
-                units = round(timeout_s / asking.settings.watchdog_unit_s)
-                frames.append((one.bus, asking.write(one.id, asking.settings.watchdog, units)))
-        exchange(ports, clock, frames, lambda _: None, wait_s=wait_s)
+        few = msgspec.structs.replace(joints, joints=missing)
+        exchange(ports, clock, watchdogs(few, timeout_s), lambda _: None, wait_s=wait_s)
         answers = {name: Answers() for name in missing}
         for number in {_watchdog(one) for one in missing.values()}:
             read_registers(ports, clock, missing, answers, number)

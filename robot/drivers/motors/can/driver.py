@@ -15,6 +15,7 @@ from robot.drivers.motors.can.alarms import Alarms, Level
 from robot.drivers.motors.can.claim import Claim
 from robot.drivers.motors.can.coding import Coding
 from robot.drivers.motors.can.emulated import EmulatedBuses, PlantClock, buses_in
+from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.gearing import Gearing
 from robot.drivers.motors.can.interview import interview
 from robot.drivers.motors.can.joint_map import JointMap
@@ -30,6 +31,8 @@ from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.se3 import Array
 
+INHERITS_PERIODS = 3
+"""For so many at most replies are waited for of motors that another program left enabled."""
 LOOKS = 2
 """A period, for what came in: to wake up for every reply would take a third of a core more."""
 
@@ -110,6 +113,8 @@ class CanMotors(Closing):
         self._is_armed = False
         self._asked = False
         self._asks = True
+        self._claimed_s = np.inf
+        self._unset: list[tuple[str, Frame]] = []
         self._sent: MotorCommand | None = None
         self._held: MotorCommand | None = None
         self._tick_s = 0.0
@@ -197,7 +202,11 @@ class CanMotors(Closing):
         )
 
     def claim(self) -> bool:
-        """Become the one that commands these buses; False while another one does."""
+        """Become the one that commands these buses; False while another one does.
+
+        Where that one died a moment ago its motors are still enabled: they are asked at once, and
+        the next command goes to them as they are.
+        """
         ports = self._opened()
         if self._claim.is_held:
             return True
@@ -205,6 +214,10 @@ class CanMotors(Closing):
             for _ in range(STALE_CALLS):  # what nobody read meanwhile is of the past
                 if not ports.receive_packed():
                     break
+            self._claimed_s = self._clock.now_s()
+            self._tick_s = self._claimed_s + self.joints.period_s
+            self._asks = True
+            self.reception.forget_where()
         return taken
 
     @property
@@ -250,7 +263,7 @@ class CanMotors(Closing):
         self._asked = False
         state = self._state()
         if not commands:
-            self._asks = self._is_alone()
+            self._asks = self._claim.is_held or self._is_alone()
         return state
 
     def _is_alone(self) -> bool:
@@ -284,10 +297,38 @@ class CanMotors(Closing):
             tau=tau,
             temperature_c=heard.temperature_c.copy(),
             age_s=now_s - heard.heard_s,
-            watchdog=not self._is_armed or let_go,
-            command_stamp_s=self._sent.stamp_s if self._sent is not None else -np.inf,
+            watchdog=not (self._is_armed or self._is_left_enabled) or let_go,
+            command_stamp_s=self._commanded_s(now_s),
             alarms=self.alarms.messages() if self._is_armed else (),
         )
+
+    def _commanded_s(self, now_s: float) -> float:
+        """Of the last command; that of another program is no older than the motors' watchdog."""
+        if self._sent is not None:
+            return self._sent.stamp_s
+        return now_s if self._is_left_enabled else -np.inf
+
+    @property
+    def _is_left_enabled(self) -> bool:
+        """Whether a program that commanded until a moment ago left all motors enabled.
+
+        They were what the map says when it enabled them; it was not asked again here.
+        """
+        heard = self.reception
+        if self._is_known or self._is_armed or not self._claim.is_held:
+            return False
+        return bool((heard.heard_s >= self._claimed_s).all() and (heard.status == ENABLED).all())
+
+    def _inherit(self) -> bool:
+        """Take over motors that are still enabled; False if any is not."""
+        for _ in range(INHERITS_PERIODS):
+            if self._is_known or (self.reception.heard_s >= self._claimed_s).all():
+                break
+            self.read()
+        if not self._is_left_enabled:
+            return False
+        self._unset = arming.watchdogs(self.joints, self.joints.watchdog_s)
+        return True
 
     def _tell_alarms(self, now_s: float) -> None:
         """Say what is new."""
@@ -318,10 +359,10 @@ class CanMotors(Closing):
         if not self.claim():
             raise DriverError("another controller commands the motors")
         if not self._is_armed:
-            if not self._is_known:
-                self._interview(ports)
-                self._understand()
-            arming.arm(ports, self._clock, self.joints, self.ranges)
+            if self._inherit():
+                self._tell("the motors were left enabled: they are commanded as they are")
+            else:
+                self._arm(ports)
             self._is_armed = True
             self._lost_before, self._periods = self.reception.lost, 0
             self.reception.status[:] = ENABLED
@@ -330,7 +371,16 @@ class CanMotors(Closing):
         measured = Measured(q, qd, self.reception.temperature_c)
         limited = self.limiter.apply(self._decided(command, q), measured)
         self._sent = self._send(ports, limited)
+        # Behind the first commands: who left the motors may have switched their watchdogs off.
+        self._unset = [(bus, frame) for bus, frame in self._unset if not ports.send(bus, frame)]
         return self._sent
+
+    def _arm(self, ports: Ports) -> None:
+        """Enable all motors. Raises DriverError if one is not what the map says, or does not."""
+        if not self._is_known:
+            self._interview(ports)
+            self._understand()
+        arming.arm(ports, self._clock, self.joints, self.ranges)
 
     def _decided(self, command: MotorCommand, q: Array) -> MotorCommand:
         """The command, or what an alarm wants in its place."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from robot.drivers.motors.can import mit11, mit11_arrays
@@ -85,35 +85,25 @@ _DAMIAO = Asking(
     reply=mit11.register_reply,
 )
 
+_MIT = Family(
+    is_extended=False,
+    kp_max=mit11.KP_MAX,
+    kd_max=mit11.KD_MAX,
+    command=mit11.command,
+    target=mit11.target,
+    enable=mit11.enable,
+    disable=mit11.disable,
+    clear_fault=mit11.clear_fault,
+    set_zero=mit11.set_zero,
+    feedback=mit11.feedback,
+    arrays=mit11_arrays.damiao,
+    status=mit11.status,
+    asking=_DAMIAO,
+)
+
 FAMILIES: dict[str, Family] = {
-    "damiao": Family(
-        is_extended=False,
-        kp_max=mit11.KP_MAX,
-        kd_max=mit11.KD_MAX,
-        command=mit11.command,
-        target=mit11.target,
-        enable=mit11.enable,
-        disable=mit11.disable,
-        clear_fault=mit11.clear_fault,
-        set_zero=mit11.set_zero,
-        feedback=mit11.feedback,
-        arrays=mit11_arrays.damiao,
-        status=mit11.status,
-        asking=_DAMIAO,
-    ),
-    "tmotor": Family(
-        is_extended=False,
-        kp_max=mit11.KP_MAX,
-        kd_max=mit11.KD_MAX,
-        command=mit11.command,
-        target=mit11.target,
-        enable=mit11.enable,
-        disable=mit11.disable,
-        clear_fault=None,
-        set_zero=mit11.set_zero,
-        feedback=mit11.feedback_ak,
-        arrays=mit11_arrays.ak,
-        status=mit11.status,
-        asking=None,
+    "damiao": _MIT,
+    "tmotor": replace(
+        _MIT, clear_fault=None, feedback=mit11.feedback_ak, arrays=mit11_arrays.ak, asking=None
     ),
 }
