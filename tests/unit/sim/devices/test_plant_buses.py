@@ -128,6 +128,43 @@ def test_the_controller_walks_by_frames_alone(robot, rig):
     ]
 
 
+@pytest.mark.parametrize("after_s", [0.002, 0.008])
+def test_a_spare_holds_up_a_robot_whose_controller_was_killed_in_mid_step(robot, rig, after_s):
+    def play(driver, loop, periods: int) -> None:
+        for _ in range(periods):
+            state, felt = driver.read(), rig.plant.sample
+            driver.write(loop.tick(BodySample(state, felt.imu, felt.force)))
+
+    loop, spare_loop, lines = ControlLoop(robot), ControlLoop(robot), list[str]()
+    first = rig.driver().__enter__()
+    play(first, loop, 20)
+    with rig.driver(lines.append) as spare:
+        play(first, loop, 130)
+        loop.handle(Walk(stamp_s=rig.now_s(), id=1, forward_m_s=0.3, hold_s=9.0))
+        play(first, loop, 500)
+        assert loop.mode == "walk"
+        first._is_armed = False  # it is killed, and its sockets close
+        first.close()
+        died_s = rig.now_s()
+        rig.sleep_until(died_s + after_s)  # before the spare notices
+        assert spare.claim()
+        spare_loop.recall(loop.state())
+        play(spare, spare_loop, 1)
+        assert rig.now_s() - died_s <= after_s + 0.004
+        play(spare, spare_loop, 600)
+        assert spare_loop.mode == "stand"
+        assert rig.plant.where(robot.base_body).p[2] > 0.55  # it stands at 0.587 m
+        assert {motor.status for motor in rig.buses.motors} == {1}
+        assert {motor.registers[9] for motor in rig.buses.motors} == {400}
+    assert lines[0] == "the motors were left enabled: they are commanded as they are"
+
+
+def test_buses_whose_motors_were_never_enabled_say_so_at_the_end(rig):
+    rig.sleep_until(rig.now_s() + 0.01)
+    rig.buses.close()
+    assert rig.lines == ["emulated CAN: no motor was ever enabled"]
+
+
 def test_a_second_program_asks_for_nothing_while_the_first_commands(robot, rig):
     """As a spare controller does: its questions would take the place of commands."""
     with rig.driver() as first:
