@@ -238,7 +238,7 @@ class CanMotors(Closing):
     # --- read ------------------------------------------------------------------------------------
 
     def read(self) -> MotorState:
-        """The state at the end of this period. Raises DriverError if a bus went away."""
+        """The state at the end of this period. Raises DriverError if all buses went away."""
         ports = self._opened()
         commands = self._asked
         if not commands and self._asks:
@@ -258,6 +258,8 @@ class CanMotors(Closing):
                 self._flush(ports)
             if (ended_s := self._clock.now_s()) >= until_s - SAME_S:
                 break
+        for bus, why in ports.gone.items():
+            self._watch.unplugged(bus, why)
         begun_s = ended_s if ended_s - until_s < SAME_S else until_s
         self._tick_s = begun_s + self.joints.period_s
         self._asked = False

@@ -9,7 +9,7 @@ from robot.drivers.body_sample import BodySample
 from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.can import emulated, joint_map
 from robot.drivers.motors.can.joint_map import MotorRanges
-from robot.errors import ConfigError
+from robot.errors import ConfigError, DriverError
 from robot.messages import Walk
 from robot.model import description
 from sim import world
@@ -157,6 +157,42 @@ def test_a_spare_holds_up_a_robot_whose_controller_was_killed_in_mid_step(robot,
         assert {motor.status for motor in rig.buses.motors} == {1}
         assert {motor.registers[9] for motor in rig.buses.motors} == {400}
     assert lines[0] == "the motors were left enabled: they are commanded as they are"
+
+
+def test_a_bus_that_is_unplugged_is_named_within_a_period_and_the_others_go_on(robot, rig):
+    def unplug(*buses: str) -> None:
+        server, wires = rig.buses._server, list(rig.buses._server._wires)
+        lost = [wires[list(rig.joints.buses).index(bus)] for bus in buses]
+        for fd, program in list(server._programs.items()):
+            if program.wire in lost:
+                server._forget(fd)
+
+    bus = rig.joints.joints["left_elbow"].bus
+    there = np.array([one.bus != bus for one in rig.joints.joints.values()])
+    with rig.driver() as driver:
+        for _ in range(50):
+            driver.write(holding(robot, rig.now_s()))
+            driver.read()
+        unplug(bus)
+        driver.write(holding(robot, rig.now_s()))
+        state = driver.read()
+        (alarm,) = state.alarms
+        assert (alarm.code, alarm.who, alarm.level) == ("unplugged", bus, "SIT")
+        assert "went away" in alarm.cause or "does not send" in alarm.cause
+        for _ in range(20):
+            driver.write(holding(robot, rig.now_s()))
+            state = driver.read()
+        assert (state.age_s[there] < 0.002 + 1e-9).all()
+        assert (state.age_s[~there] > 0.03).all()
+        statuses = np.array([motor.status for motor in rig.buses.motors])
+        assert (statuses[there] == 1).all()
+        assert (statuses[~there] == 0xD).all()  # by their own watchdogs
+        unplug(*rig.joints.buses)
+        with pytest.raises(DriverError, match=r"went away|does not send"):
+            for _ in range(2):
+                driver.write(holding(robot, rig.now_s()))
+                driver.read()
+    assert not driver._claim.is_held
 
 
 def test_buses_whose_motors_were_never_enabled_say_so_at_the_end(rig):
