@@ -37,7 +37,7 @@ STIFF_RAD = 0.10
 """At this distance from its target a joint gives all the torque that it may."""
 DAMPING_SHARE = 0.05
 SETTLES_S, DAMPS_S = 0.3, 0.5
-RATE_HZ, WATCHDOG_S = 100, 0.05
+RATE_HZ, WATCHDOG_S = 100, 0.1
 """A slow joint needs no more commands, and a busy laptop then loses no reply to speak of."""
 LEAST_SPAN_S = 0.2
 

@@ -90,7 +90,7 @@ class Zero(OfMap):
     joint: Joint
     at_rad: Annotated[
         float,
-        typer.Option("--at", min=-7.0, max=7.0, help="The angle at which it stands now [rad]."),
+        typer.Option("--at", min=-7.0, max=7.0, help="The angle at which it stands now (rad)."),
     ] = 0.0
     in_motor: Annotated[
         bool,
@@ -107,10 +107,10 @@ class Jog(OfMap):
     joint: Joint
     by_rad: Annotated[
         float,
-        typer.Option("--by", min=-3.2, max=3.2, help="How far from where it is [rad]."),
+        typer.Option("--by", min=-3.2, max=3.2, help="How far from where it is (rad)."),
     ]
     speed_rad_s: Annotated[
-        float, typer.Option("--speed", min=0.01, max=2.0, help="How fast at most [rad/s].")
+        float, typer.Option("--speed", min=0.01, max=2.0, help="How fast at most (rad/s).")
     ] = 0.2
     torque: Annotated[
         float,

@@ -52,7 +52,7 @@ class Bench:
 
     def statuses(self) -> list[int]:
         """After the watchdogs would have ended, whoever was enabled."""
-        self.rig.clock.sleep_until(self.rig.clock.now_s() + 0.1)
+        self.rig.clock.sleep_until(self.rig.clock.now_s() + 0.3)
         self.rig.bench.advance(self.rig.clock.now_s())
         return [motor.status for motor in self.rig.bench.devices]
 
@@ -85,7 +85,7 @@ def test_only_the_motor_of_that_joint_is_ever_enabled_or_given_a_watchdog(bench:
         )
     bench.jog()
     assert seen == {(0, 0, 0), (0, 1, 0)}
-    assert [motor.registers[9] for motor in bench.rig.bench.devices] == [0, 1000, 0]
+    assert [motor.registers[9] for motor in bench.rig.bench.devices] == [0, 2000, 0]
 
 
 def test_it_is_never_faster_than_asked(bench: Bench):
