@@ -96,6 +96,9 @@ CATALOGUE: dict[str, FailureKind] = {
     "camera_black": FailureKind("the camera sees nothing", "uncover it, or make light"),
     "sensor_silent": FailureKind("a sensor stopped answering", "check its cable"),
     "overheated": FailureKind("a motor is too hot", "let it cool down"),
+    "motor_fault": FailureKind(
+        "a motor or its bus has a fault", "look at its power and cable: humanoid motors check"
+    ),
     "battery_low": FailureKind("the battery is nearly empty", "charge it"),
     "emergency_stop": FailureKind("the emergency stop was pressed", "release it, then reset it"),
     "overloaded": FailureKind("the computer does not keep up", "end other programs on it"),

@@ -189,6 +189,21 @@ class ImuBias(msgspec.Struct, frozen=True, kw_only=True):
     accel_sigma_m_s2: Vector3
 
 
+class MotorAlarm(msgspec.Struct, frozen=True):
+    """One thing wrong with a motor or its bus, as its driver says.
+
+    `code` is for programs (`silent`), `who` the joint or the bus; `level` what is done, mild first:
+    WARN, DERATE (less torque), HOLD (the last targets are kept), SIT (the robot is lowered, and it
+    stays latched).
+    """
+
+    code: str
+    who: str
+    level: Literal["WARN", "DERATE", "HOLD", "SIT"]
+    cause: str
+    cure: str
+
+
 class BodyState(Message, frozen=True, kw_only=True):
     """The body as the controller believes it to be; estimated, not true.
 
@@ -218,6 +233,7 @@ class BodyState(Message, frozen=True, kw_only=True):
     clamped: int = 0
     refused: int = 0
     temperature_c: tuple[float, ...] = ()
+    alarms: tuple[MotorAlarm, ...] = ()
     failure: Failure | None = None
     since_s: float = 0.0
     imu: ImuBias | None = None

@@ -121,7 +121,9 @@ class PlantBuses(Closing):
 
     def _summary(self) -> str:
         """How long commands took, and in how many periods simulated time waited for them."""
-        total, limit = max(1, sum(self.took)), round(THINKS_S / BIN_S)
+        total, limit = sum(self.took), round(THINKS_S / BIN_S)
+        if not total:
+            return "emulated CAN: no motor was ever enabled"
         parts = [
             next(bin for bin in range(BINS + 1) if sum(self.took[: bin + 1]) >= share * total)
             for share in (0.5, 0.9, 0.99)

@@ -117,11 +117,13 @@ class Simulation:
 
         return cast(home(kind, seed), seed)
 
-    def motors(self, file: Path, *, flaws: Mapping[str, str]) -> EmulatedBuses:
+    def motors(
+        self, file: Path, *, flaws: Mapping[str, str], is_still: bool = False
+    ) -> EmulatedBuses:
         """Emulate the motors of a joint map. Raises ConfigError as `sim.devices.bench.build`."""
         from sim.devices.emulated import EmulatedMotors
 
-        return EmulatedMotors(file, flaws=flaws)
+        return EmulatedMotors(file, flaws=flaws, is_still=is_still)
 
 
 class SimulatedWorld:

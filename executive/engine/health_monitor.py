@@ -32,6 +32,8 @@ OVERLOAD_SHARE = 0.15
 """More late periods than this are too many to go on with, once all else makes room."""
 THIN_SPEED = 0.6
 """The part of the speed that is left while a topic is thin."""
+DERATED_SPEED = 0.6
+"""The part of the speed that is left while a motor gives less torque."""
 DOWN = ("fallen", "rising")
 """Modes of a body without a foot that says where it is: its pose has to be found again anyway."""
 JUMP_REST_S = 2.0
@@ -186,7 +188,7 @@ class HealthMonitor:
             findings += [one for one in (finding or thin,) if one is not None]
         findings += filter(None, [self._estop.finding])
         if body is not None:
-            findings += [*_fall(body), *self._heat(body)]
+            findings += [*_fall(body), *self._heat(body), *_alarms(body)]
         if world is not None:
             place = [*_fix(world, now_s), *self._jump(world, now_s)]
             findings += [] if body is not None and body.mode in DOWN else place
@@ -306,6 +308,25 @@ def _fall(body: BodyState) -> list[Finding]:
     if body.failure is not None:
         return [Finding(name="controller", level=Level.SIT, failure=body.failure)]
     return []
+
+
+def _alarms(body: BodyState) -> list[Finding]:
+    """What the motors' driver says is wrong, at its own level."""
+    return [
+        Finding(
+            name=f"motor {alarm.who}",
+            level=Level[alarm.level],
+            failure=failure(
+                "motor_fault",
+                f"{alarm.who}: {alarm.cause}",
+                suggestion=alarm.cure,
+                who=alarm.who,
+                alarm=alarm.code,
+            ),
+            speed=DERATED_SPEED if alarm.level == "DERATE" else 1.0,
+        )
+        for alarm in body.alarms
+    ]
 
 
 def _battery(power: PowerState) -> list[Finding]:

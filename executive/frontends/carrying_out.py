@@ -136,7 +136,9 @@ def _begun(handle: Handle | None) -> Prepared | None:
     assignment = left.newest(where)
     if assignment is None:
         return None
-    again = Setup(where=where, kind="live", seed=there.seed, folder=left.folder)
+    again = Setup(
+        where=where, kind="live", seed=there.seed, folder=left.folder, driver=there.motors
+    )
     return Prepared(assignment=assignment, setup=again, left=left)
 
 

@@ -35,6 +35,7 @@ class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
     What was asked for stands here as `text` for people; what jobs are made of, in the journal.
     `reality`: the profile of the simulated one (docs/realities.md).
+    `driver`: of the motors, where that is not the one that the robot's description names.
     `attended`: a person was there, to ask for more and to inject faults.
     """
 
@@ -45,6 +46,7 @@ class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     runtime: str
     varied: bool = False
     reality: str = "ideal"
+    driver: str = ""
     attended: bool = False
     origin: Origin | None = None
 
@@ -60,6 +62,7 @@ def header(setup: Setup, *, text: str, attended: bool = False) -> Header:
         runtime=setup.kind,
         varied=where.world.vary_seed is not None,
         reality=where.world.profile,
+        driver=setup.driver,
         attended=attended,
         origin=provenance.of(where.world, where.description),
     )

@@ -23,8 +23,8 @@ from intents.english.trouble import listing
 from robot.failures import Failure, failure
 
 HOPELESS = frozenset({
-    "fallen", "localisation_lost", "sensor_silent", "overheated", "battery_low", "emergency_stop",
-    "controller_lost", "plant_lost", "cancelled", "internal",
+    "fallen", "localisation_lost", "sensor_silent", "overheated", "motor_fault", "battery_low",
+    "emergency_stop", "controller_lost", "plant_lost", "cancelled", "internal",
 })  # fmt: skip
 """Failures of the robot itself: the next thing would fare no better."""
 

@@ -17,6 +17,7 @@ from robot.control.head import Head, WaistGaze
 from robot.control.latency import Latency
 from robot.control.legs import Legs
 from robot.control.limits import Limits
+from robot.control.lowering import Lowering
 from robot.control.payload import Payloads
 from robot.control.posture import Posture, steady
 from robot.control.starting import planar
@@ -88,6 +89,7 @@ class ControlLoop:
         self._known: ImuBias | None = None
         self.latency = Latency(self.body.torque_limit_nm, BUS_PERIOD_S)
         self._foresight = Foresight()
+        self._lowering = Lowering(description.walking.base_height_m)
 
     def recall(self, state: BodyState | None) -> None:
         """Begin with what the controller before this one knew of the IMU, if it said so."""
@@ -134,6 +136,16 @@ class ControlLoop:
             return
         for hand in self.hands.values():
             hand.keep(state)
+
+    def _lower(self) -> None:
+        """A motor broke: squat, and take no more orders for the legs."""
+        self._failure, legs = self._lowering.reason, self.legs
+        if self.mode in ("stand", "walk"):
+            down = Stand(
+                stamp_s=self._sample.motors.stamp_s, id=0,
+                height_m=self._lowering.height_m,
+            )  # fmt: skip
+            legs.stand(down)
 
     # --- commands ------------------------------------------------------------------------------
 
@@ -187,8 +199,9 @@ class ControlLoop:
         """Begin to get up; refused on the feet, and by a robot that knows no way."""
         down = self.mode == "fallen" or (self.mode == "damping" and self.posture.lies)
         able = self.description.getting_up is not None
-        if not down or not able:
+        if (broken := self._lowering.reason) is not None or not down or not able:
             detail = "this robot knows no way to get up" if down else "it does not lie on the floor"
+            detail = detail if broken is None else f"a motor is broken: {broken.cause}"
             self.legs.activity = Activity(id=command.id, status="failed", detail=detail)
             return
         self.limits.reset()
@@ -200,6 +213,10 @@ class ControlLoop:
 
     def _move(self, command: Stand | OneLeg | Walk | WalkTo) -> None:
         """A command to the legs: refused while down; on the way up it ends that."""
+        if (reason := self._lowering.reason) is not None:
+            detail = f"the robot was lowered: {reason.cause}"
+            self.legs.activity = Activity(id=command.id, status="failed", detail=detail)
+            return
         if self._getting_up is not None:
             self._fall("getting up was broken off")
         if self.mode in ("damping", "fallen") and not self._may_rise(command):
@@ -239,6 +256,8 @@ class ControlLoop:
             if taking_over:
                 self._take_over(state)
         self._sample = sample
+        if state.alarms and self._lowering.heed(state.alarms):
+            self._lower()
         self.latency.felt(state)
         self._gyro += imu.gyro_rad_s
         self._accel += imu.accel_m_s2
@@ -404,6 +423,7 @@ class ControlLoop:
             clamped=self.limits.clamped,
             refused=self.limits.refused,
             temperature_c=tuple(state.temperature_c.tolist()),
+            alarms=state.alarms,
             failure=self._failure,
             since_s=self._since_s,
             imu=self.estimator.imu_bias,

@@ -16,6 +16,7 @@ from typing import Literal, Protocol, Self, get_args
 import numpy as np
 
 from robot.closing import Closing
+from robot.messages import MotorAlarm
 from robot.se3 import Array
 
 Capability = Literal["position", "torque", "temperature", "gains"]
@@ -68,6 +69,9 @@ class MotorState:
         watchdog: True where the firmware damps because commands stopped coming.
         command_stamp_s: stamp of the last command the firmware took, -inf if none; on a bus whose
             frames carry no stamp, the last that this driver sent.
+        alarms: what is wrong with motors and buses, the most severe first. From HOLD on the driver
+            keeps the last targets; at SIT its commands pass again, so that whoever commands lowers
+            the robot with what it has left.
     """
 
     stamp_s: float
@@ -78,6 +82,7 @@ class MotorState:
     age_s: Array
     watchdog: bool
     command_stamp_s: float
+    alarms: tuple[MotorAlarm, ...] = ()
 
 
 class MotorBus(Closing, Protocol):

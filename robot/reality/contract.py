@@ -104,12 +104,15 @@ class Reality(Protocol):
         """
         ...
 
-    def motors(self, file: Path, *, flaws: Mapping[str, str]) -> EmulatedBuses:
+    def motors(
+        self, file: Path, *, flaws: Mapping[str, str], is_still: bool = False
+    ) -> EmulatedBuses:
         """Emulate the motors of a joint map; it begins by entering.
 
         Args:
             file: the joint map.
             flaws: what is wrong with whom, by joint.
+            is_still: whether they rest, and do not swing a little.
 
         Raises:
             ConfigError: with everything that is wrong in the file or in the flaws.

@@ -44,13 +44,20 @@ class Bench:
             device.live(until_s)
 
 
-def build(wanted: JointMap, *, now_s: float = 0.0, flaws: Mapping[str, str] | None = None) -> Bench:
+def build(
+    wanted: JointMap,
+    *,
+    now_s: float = 0.0,
+    flaws: Mapping[str, str] | None = None,
+    is_still: bool = False,
+) -> Bench:
     """The motors of a map, in the middle of their joints' ranges and swinging a little.
 
     Args:
         wanted: the map.
         now_s: when their time begins.
         flaws: what is wrong with whom, by joint.
+        is_still: whether they do not swing.
 
     Raises:
         ConfigError: if a joint or a flaw is unknown, or a motor's family is not emulated.
@@ -61,21 +68,28 @@ def build(wanted: JointMap, *, now_s: float = 0.0, flaws: Mapping[str, str] | No
     wires = {name: Wire(bitrate_hz=bus.bitrate_hz, now_s=now_s) for name, bus in buses}
     motors: dict[str, Damiao] = {}
     others: list[Damiao] = []
+    swing_rad_s = 0.0 if is_still else SWING_RAD_S
     for name, joint in wanted.joints.items():
-        motors[name] = _motor(joint, wires[joint.bus])
+        motors[name] = _motor(joint, wires[joint.bus], swing_rad_s)
         if (flaw := flaws.get(name)) is not None:
             motors[name].suffer(cast("Flaw", flaw))
             if flaw == "twin":
-                others.append(_motor(joint, wires[joint.bus], ahead_rad=0.1, later_s=LATER_S))
+                twin = _motor(joint, wires[joint.bus], swing_rad_s, ahead_rad=0.1, later_s=LATER_S)
+                others.append(twin)
     return Bench(wires, motors, tuple(others))
 
 
 def _motor(
-    joint: JointMotor, wire: Wire, *, ahead_rad: float = 0.0, later_s: float = 0.0
+    joint: JointMotor,
+    wire: Wire,
+    swing_rad_s: float,
+    *,
+    ahead_rad: float = 0.0,
+    later_s: float = 0.0,
 ) -> Damiao:
     middle_rad = joint.motor_rad(0.5 * (joint.lower_rad + joint.upper_rad))
     shaft = FreeShaft(q_rad=middle_rad + ahead_rad, spring_nm_rad=0.3)
-    shaft.qd_rad_s = SWING_RAD_S
+    shaft.qd_rad_s = swing_rad_s
     sold = joint.expected
     return Damiao(
         wire, shaft, joint.id, joint.answers_as, sold.position_rad, sold.velocity_rad_s,

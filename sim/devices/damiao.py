@@ -58,6 +58,7 @@ class Damiao:
         later_s: by how much later it answers than others do.
         trouble: what is wrong with it.
         winding_c, driver_c, volts: what it measures.
+        zero_rad: its shaft's angle where it says 0.
     """
 
     wire: Wire
@@ -73,6 +74,7 @@ class Damiao:
     driver_c: float = AMBIENT_C
     volts: float = 24.0
     heat_k_s: float = 4.0
+    zero_rad: float = 0.0
 
     def __post_init__(self) -> None:
         """Switch on: disabled, watchdog off, as delivered."""
@@ -138,13 +140,15 @@ class Damiao:
                 self.status, self._ordered, self._last = 1, LET_GO, b""
             elif (data[7] == 0xFD and self.status == 1) or (data[7] == 0xFB and self.status > 1):
                 self.status = 0
+            elif data[7] == 0xFE and self.status == 0:
+                self.zero_rad = self.shaft.q_rad
             return
         if self.status != 1 or registers[10] != 1 or data == self._last:
             return
         b, p, v, t = data, registers[21], registers[22], registers[23]
         self._last = data
         self._ordered = Order(
-            q_rad=(b[0] << 8 | b[1]) * (p + p) / 65535 - p,
+            q_rad=(b[0] << 8 | b[1]) * (p + p) / 65535 - p + self.zero_rad,
             qd_rad_s=(b[2] << 4 | b[3] >> 4) * (v + v) / 4095 - v,
             kp=((b[3] & 0xF) << 8 | b[4]) * KP_LIMIT / 4095,
             kd=(b[5] << 4 | b[6] >> 4) * KD_LIMIT / 4095,
@@ -172,12 +176,16 @@ class Damiao:
             self._answer(bytes((own & 0xFF, own >> 8, what, number)) + packed, now_s)
 
     def _register(self, number: int) -> float:
-        measured = {60: self.volts, 61: self.driver_c, 62: self.winding_c, 80: self.shaft.q_rad}
+        measured = {60: self.volts, 61: self.driver_c, 62: self.winding_c, 80: self._q_rad}
         return measured.get(number, self.registers.get(number, 0.0))
+
+    @property
+    def _q_rad(self) -> float:
+        return self.shaft.q_rad - self.zero_rad
 
     def _feedback(self) -> bytes:
         speed = self.shaft.qd_rad_s * self.trouble.speed_scale
-        q = _steps(self.shaft.q_rad, self.registers[21], 16)
+        q = _steps(self._q_rad, self.registers[21], 16)
         v = _steps(speed, self.registers[22], 12)
         t = _steps(self.tau_nm, self.registers[23], 12)
         return bytes(

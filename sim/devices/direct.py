@@ -17,10 +17,15 @@ from sim.devices.wire import CanFrame, Node
 
 
 class DirectPorts(Closing):
-    """The `Ports` of one program; waiting moves the clock, the wires and the devices on."""
+    """The `Ports` of one program; waiting moves the clock, the wires and the devices on.
+
+    Attributes:
+        gone: nothing of itself.
+    """
 
     def __init__(self, bench: Bench, clock: SimulatedClock) -> None:
         """Know the bench; nothing is plugged in."""
+        self.gone: dict[str, str] = {}
         self._bench, self._clock = bench, clock
         self._nodes: dict[str, Node] = {}
         self._heard: deque[Heard] = deque()

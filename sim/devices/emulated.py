@@ -16,7 +16,7 @@ from robot.drivers.motors.can import joint_map
 from robot.drivers.motors.can.emulated import INTERFACE
 from robot.errors import ProcessError
 from sim.devices import bench
-from sim.devices.main import READY
+from sim.devices.main import READY, STILL, SWINGING
 
 STOPS_WITHIN_S = 3.0
 POLL_S = 0.005
@@ -32,11 +32,11 @@ class EmulatedMotors(Closing):
 
     interface = INTERFACE
 
-    def __init__(self, file: Path, *, flaws: Mapping[str, str]) -> None:
+    def __init__(self, file: Path, *, flaws: Mapping[str, str], is_still: bool = False) -> None:
         """Look at the map. Raises ConfigError as `bench.build`."""
         wanted = joint_map.load(file)
         bench.build(wanted, flaws=flaws)
-        self._file, self._flaws = file, flaws
+        self._file, self._flaws, self._is_still = file, flaws, is_still
         self._buses = tuple(wanted.buses)
         self._folder: private_folder.PrivateFolder | None = None
         self._child: subprocess.Popen[bytes] | None = None
@@ -48,9 +48,10 @@ class EmulatedMotors(Closing):
         sockets = [self._folder.path / f"bus{index}" for index in range(len(self._buses))]
         self.channels = dict(zip(self._buses, map(str, sockets), strict=True))
         flaws = [f"{joint}={flaw}" for joint, flaw in self._flaws.items()]
+        motion = STILL if self._is_still else SWINGING
         self._child = subprocess.Popen(
             [sys.executable, "-m", "sim.devices.main", str(os.getpid()), str(self._file),
-             str(self._folder.path), *flaws],
+             str(self._folder.path), motion, *flaws],
             stdin=subprocess.DEVNULL, start_new_session=True,
         )  # fmt: skip
         clock = WallClock()

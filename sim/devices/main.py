@@ -1,4 +1,7 @@
-"""Emulated motors as a process: `python -m sim.devices.main PARENT MAP FOLDER JOINT=FLAW...`."""
+"""Emulated motors as a process: `-m sim.devices.main PARENT MAP FOLDER MOTION JOINT=FLAW...`.
+
+MOTION is `still` or `swinging`.
+"""
 
 from __future__ import annotations
 
@@ -12,17 +15,18 @@ from sim.devices import bench
 from sim.devices.server import CanServer
 
 STOP_SEEN_EVERY_S = 0.1
+STILL, SWINGING = "still", "swinging"
 READY = "ready"
 """A file that says that all sockets are there."""
 
 
-def main(parent_pid: str, file: str, folder: str, *flaws: str) -> None:
+def main(parent_pid: str, file: str, folder: str, motion: str, *flaws: str) -> None:
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
     clock, stop = WallClock(), Stop()
     wanted = joint_map.load(file)
     pairs = dict(flaw.split("=", 1) for flaw in flaws)
-    built = bench.build(wanted, now_s=clock.now_s(), flaws=pairs)
+    built = bench.build(wanted, now_s=clock.now_s(), flaws=pairs, is_still=motion == STILL)
     paths = [Path(folder) / f"bus{index}" for index in range(len(wanted.buses))]
     wires = list(zip(paths, built.wires.values(), strict=True))
     with CanServer(wires, built.devices, clock) as server:

@@ -77,6 +77,7 @@ class _Program:
             if (frame := unpacked(data)) is not None:
                 self.node.send(frame, now_s)
                 self.taken += 1
+                self._deaf = 0  # who speaks again listens
         return True
 
 

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated
-
 import typer
 
-from executive.frontends.options import AsJson, Robot
+from executive.frontends.motors.options import Check, Jog, Log, OfMap, Scan, Watch, Zero
+from executive.frontends.options import takes
 
 app = typer.Typer(
     no_args_is_help=True,
-    help="Look at real CAN motors, or at emulated ones. No command here enables or moves anything.",
+    help="Look at real CAN motors, or at emulated ones. Only jog enables a motor, and no other.",
 )
 
 
@@ -20,41 +18,9 @@ def register(parent: typer.Typer) -> None:
     parent.add_typer(app, name="motors")
 
 
-Map = Annotated[
-    Path | None,
-    typer.Option("--map", "-m", help="The joint map (default: can.yaml beside the robot)."),
-]
-Emulated = Annotated[
-    bool, typer.Option("--emulated", help="Start emulated motors, as the map has them.")
-]
-Fail = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--fail", metavar="JOINT=FLAW", help="What is wrong with an emulated motor (often)."
-    ),
-]
-Span = typer.Option("--for", min=0.1, max=3600.0, metavar="SECONDS")
-
-
 @app.command()
-def scan(
-    *,
-    channel: Annotated[
-        list[str] | None,
-        typer.Option("--channel", "-c", help="A CAN interface, can0 (often); instead of a map."),
-    ] = None,
-    interface: Annotated[
-        str, typer.Option("--interface", help="Of python-can, for --channel.")
-    ] = "socketcan",
-    up_to: Annotated[
-        int, typer.Option("--up-to", min=1, max=0x7FE, help="The largest identifier asked for.")
-    ] = 127,
-    robot: Robot = "juno",
-    map_file: Map = None,
-    emulated: Emulated = False,
-    fail: Fail = None,
-    as_json: AsJson = False,
-) -> None:
+@takes(Scan)
+def scan(options: Scan) -> None:
     """List the motors on CAN buses: who answers to which identifier, and as what.
 
     [bold]Examples[/bold]
@@ -69,23 +35,12 @@ def scan(
     """
     from executive.frontends.motors import commands
 
-    asked = commands.Asked(robot, map_file, emulated, tuple(fail or ()), as_json)
-    if channel:
-        status = commands.scan_channels(channel, interface, up_to=up_to, as_json=as_json)
-    else:
-        status = commands.scan(asked, up_to=up_to)
-    raise typer.Exit(status)
+    raise typer.Exit(commands.scan(options))
 
 
 @app.command()
-def read(
-    *,
-    robot: Robot = "juno",
-    map_file: Map = None,
-    emulated: Emulated = False,
-    fail: Fail = None,
-    as_json: AsJson = False,
-) -> None:
+@takes(OfMap)
+def read(options: OfMap) -> None:
     """Say once what every motor of a joint map measures, at its joint.
 
     [bold]Examples[/bold]
@@ -96,20 +51,12 @@ def read(
     """
     from executive.frontends.motors import commands
 
-    asked = commands.Asked(robot, map_file, emulated, tuple(fail or ()), as_json)
-    raise typer.Exit(commands.read(asked))
+    raise typer.Exit(commands.read(options))
 
 
 @app.command()
-def check(
-    *,
-    for_s: Annotated[float, Span] = 2.0,
-    robot: Robot = "juno",
-    map_file: Map = None,
-    emulated: Emulated = False,
-    fail: Fail = None,
-    as_json: AsJson = False,
-) -> None:
+@takes(Check)
+def check(options: Check) -> None:
     """Compare every motor with the joint map, and say what disagrees, with its cure.
 
     Identifiers, twins, ranges, mode, faults, sign and offset; how full each bus gets; then, for a
@@ -126,23 +73,12 @@ def check(
     """
     from executive.frontends.motors import commands
 
-    asked = commands.Asked(robot, map_file, emulated, tuple(fail or ()), as_json)
-    raise typer.Exit(commands.check(asked, for_s=for_s))
+    raise typer.Exit(commands.check(options))
 
 
 @app.command()
-def watch(
-    *,
-    for_s: Annotated[float, Span] = 3600.0,
-    every_s: Annotated[
-        float, typer.Option("--every", min=0.02, max=60.0, help="Seconds between two tables.")
-    ] = 0.2,
-    robot: Robot = "juno",
-    map_file: Map = None,
-    emulated: Emulated = False,
-    fail: Fail = None,
-    as_json: AsJson = False,
-) -> None:
+@takes(Watch)
+def watch(options: Watch) -> None:
     """Show what every joint measures as a live table, and what is wrong below it.
 
     [bold]Examples[/bold]
@@ -155,5 +91,61 @@ def watch(
     """
     from executive.frontends.motors import commands
 
-    asked = commands.Asked(robot, map_file, emulated, tuple(fail or ()), as_json)
-    raise typer.Exit(commands.watch(asked, for_s=for_s, every_s=every_s))
+    raise typer.Exit(commands.watch(options))
+
+
+@app.command()
+@takes(Log)
+def log(options: Log) -> None:
+    """Write what every joint measures into a new file, a line a period (CSV).
+
+    [bold]Examples[/bold]
+
+      humanoid motors log swing.csv --map my_arm/can.yaml --for 30
+
+      humanoid motors log slow.csv --emulated --for 5 --every 0.1
+
+    Ctrl-C ends it, and the file is whole. A robot that is at work is listened to.
+    """
+    from executive.frontends.motors import commands
+
+    raise typer.Exit(commands.log(options))
+
+
+@app.command()
+@takes(Zero)
+def zero(options: Zero) -> None:
+    """Say which offset_rad a joint has that stands, still, at an angle that you know.
+
+    Its motor stays disabled. With --in-motor the motor itself calls this position zero, also when
+    it was without power; the map's offset_rad is the angle then.
+
+    [bold]Examples[/bold]
+
+      humanoid motors zero left_knee --at 0 --map my_leg/can.yaml
+
+      humanoid motors zero elbow --at 1.571 --in-motor --map my_arm/can.yaml
+    """
+    from executive.frontends.motors import commands
+
+    raise typer.Exit(commands.zero(options))
+
+
+@app.command()
+@takes(Jog)
+def jog(options: Jog) -> None:
+    """Move one joint a little way, slowly and weakly; its motor alone is enabled for it.
+
+    Hold the robot up: the motor lets go at the end. Ctrl-C ends it, and it lets go.
+
+    [bold]Examples[/bold]
+
+      humanoid motors jog elbow --by 0.2 --map my_arm/can.yaml
+
+      humanoid motors jog left_knee --by -0.3 --speed 0.1 --torque 0.5 --emulated
+
+    Exit status 1 where it did not get there: something blocks it, or its motor has a fault.
+    """
+    from executive.frontends.motors import commands
+
+    raise typer.Exit(commands.jog(options))

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Mapping
+from collections.abc import Generator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from pathlib import Path
-from typing import NamedTuple
 
 from rich.console import Group
 from rich.live import Live
@@ -13,38 +11,29 @@ from rich.text import Text
 
 from executive.frontends.composition_root import REALITY
 from executive.frontends.motors import tables
+from executive.frontends.motors.options import Check, Jog, Log, OfMap, Scan, Watch, Zero
+from executive.frontends.new_files import refuse_taken
 from executive.frontends.output import say, table_screen, write_json
-from robot.bringup import motor_tools
-from robot.bringup.motor_tools import Buses, Check, Joints
+from robot.bringup import motor_bench, motor_log, motor_tools
+from robot.bringup.motor_tools import Buses, Joints
 from robot.clock import WallClock
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 
 
-class Asked(NamedTuple):
-    """The options that all commands have."""
-
-    robot: str
-    map_file: Path | None
-    emulated: bool
-    fail: tuple[str, ...]
-    as_json: bool
-
-
-def scan_channels(channels: list[str], interface: str, *, up_to: int, as_json: bool) -> int:
-    """Look who is on CAN interfaces; returns the exit status.
+def scan(asked: Scan) -> int:
+    """Look who is on CAN interfaces, or on the buses of a joint map; returns the exit status.
 
     Raises:
         DriverError: if one of them cannot be opened.
     """
-    buses = motor_tools.buses_at(channels, interface)
-    return _scan(buses, up_to=up_to, joints=None, as_json=as_json, label="")
-
-
-def scan(asked: Asked, *, up_to: int) -> int:
-    """Look who is on the buses of a joint map; returns the exit status."""
+    if asked.channel:
+        buses = motor_tools.buses_at(asked.channel, asked.interface)
+        return _scan(buses, up_to=asked.up_to, joints=None, as_json=asked.as_json, label="")
     with _joints(asked) as (joints, label):
-        return _scan(joints.buses, up_to=up_to, joints=joints, as_json=asked.as_json, label=label)
+        return _scan(
+            joints.buses, up_to=asked.up_to, joints=joints, as_json=asked.as_json, label=label
+        )
 
 
 def _scan(buses: Buses, *, up_to: int, joints: Joints | None, as_json: bool, label: str) -> int:
@@ -64,7 +53,7 @@ def _scan(buses: Buses, *, up_to: int, joints: Joints | None, as_json: bool, lab
     return status
 
 
-def read(asked: Asked) -> int:
+def read(asked: OfMap) -> int:
     """Say what every motor measures; returns the exit status."""
     with _joints(asked) as (joints, label):
         rows = motor_tools.read(joints, WallClock())
@@ -80,12 +69,12 @@ def read(asked: Asked) -> int:
     return status
 
 
-def check(asked: Asked, *, for_s: float) -> int:
+def check(asked: Check) -> int:
     """Compare motors with their map; returns the exit status."""
     with _joints(asked) as (joints, label):
         if not asked.as_json:
-            say(f"Asking {len(joints.joints)} motors{label}, then reading for {for_s:g} s.")
-        found = motor_tools.check(joints, WallClock(), for_s=for_s)
+            say(f"Asking {len(joints.joints)} motors{label}, then reading for {asked.for_s:g} s.")
+        found = motor_tools.check(joints, WallClock(), for_s=asked.for_s)
     status = ExitStatus.FAILED if found.is_grave else ExitStatus.DONE
     if asked.as_json:
         write_json({"emulated": bool(label), "is_grave": found.is_grave, "check": found})
@@ -99,7 +88,7 @@ def check(asked: Asked, *, for_s: float) -> int:
     return status
 
 
-def _tell(found: Check) -> None:
+def _tell(found: motor_tools.Check) -> None:
     still = [one for one in found.findings if one.code == "not_moved"]
     for one in found.findings:
         if one in still:
@@ -115,10 +104,10 @@ def _tell(found: Check) -> None:
         say(f"ok  {found.answered:.2%} of all replies came within their period")
 
 
-def watch(asked: Asked, *, for_s: float, every_s: float) -> int:
+def watch(asked: Watch) -> int:
     """Show what joints measure, again and again; returns the exit status."""
     with _joints(asked) as (joints, label):
-        shown = motor_tools.watch(joints, WallClock(), every_s=every_s, for_s=for_s)
+        shown = motor_tools.watch(joints, WallClock(), every_s=asked.every_s, for_s=asked.for_s)
         with suppress(KeyboardInterrupt):
             _show(shown, as_json=asked.as_json, label=label)
     return ExitStatus.DONE
@@ -141,8 +130,88 @@ def _show(shown: motor_tools.Watched, *, as_json: bool, label: str) -> None:
             live.update(Group(tables.of_readings(rows), words), refresh=True)
 
 
+def log(asked: Log) -> int:
+    """Write what joints measure into a file; returns the exit status.
+
+    Raises:
+        ConfigError: if the file is there already, or cannot be written.
+    """
+    refuse_taken(asked.file)
+    with _joints(asked) as (joints, label):
+        if not asked.as_json:
+            say(f"Writing {asked.file} for {asked.for_s:g} s{label}; Ctrl-C ends it.")
+        try:
+            with asked.file.open("x", encoding="utf-8") as out:
+                logged = motor_log.log(
+                    joints, WallClock(), out, for_s=asked.for_s, every_s=asked.every_s
+                )
+        except OSError as error:
+            cure = "choose another name, or make room"
+            text = f"it cannot be written: {error.strerror}"
+            raise ConfigError([Problem(text, str(asked.file), suggestion=cure)]) from None
+    if asked.as_json:
+        write_json({"emulated": bool(label), "file": str(asked.file), "logged": logged})
+    else:
+        late = f"{logged.lost} replies were late or lost"
+        say(f"{logged.rows} lines of {logged.span_s:.2f} s are in {asked.file}{label}; {late}.")
+    return ExitStatus.DONE if logged.rows else ExitStatus.FAILED
+
+
+def zero(asked: Zero) -> int:
+    """Say which offset a joint has; returns the exit status.
+
+    Raises:
+        DriverError: if its motor is not still, or does not take its zero.
+    """
+    with _joints(asked, is_still=True) as (joints, label):
+        motor_bench.only(joints, asked.joint)
+        if not asked.as_json:
+            say(f"Hold {asked.joint} still at {asked.at_rad:g} rad{label}.")
+        found = motor_bench.zero(
+            joints, asked.joint, WallClock(), at_rad=asked.at_rad, in_motor=asked.in_motor
+        )
+    if asked.as_json:
+        write_json({"emulated": bool(label), "zero": found})
+        return ExitStatus.DONE
+    say(f"{found.joint} stands at {found.was_rad:.4f} rad by the map as it is.")
+    if found.is_in_motor:
+        say("Its motor calls this position zero from now on.")
+    say(f"Write offset_rad: {found.offset_rad:.4f} at {found.joint} into {joints.file}.")
+    return ExitStatus.DONE
+
+
+def jog(asked: Jog) -> int:
+    """Move one joint a little way; returns the exit status.
+
+    Raises:
+        DriverError: if its motor cannot be enabled, or was not seen to let go.
+    """
+    with _joints(asked, is_still=True) as (joints, label):
+        motor_bench.only(joints, asked.joint)
+        if not asked.as_json:
+            say(f"Moving {asked.joint} by {asked.by_rad:g} rad{label}; Ctrl-C stops it.")
+        moved = motor_bench.jog(
+            joints,
+            asked.joint,
+            WallClock(),
+            by_rad=asked.by_rad,
+            speed_rad_s=asked.speed_rad_s,
+            torque_share=asked.torque,
+        )
+    is_there = moved.ending == "there"
+    if asked.as_json:
+        write_json({"emulated": bool(label), "jog": moved})
+        return ExitStatus.DONE if is_there else ExitStatus.FAILED
+    if not is_there:
+        say(f"no  {moved.joint}: {moved.why}", styled=("no", "red"))
+    way = f"{moved.from_rad:.3f} to {moved.to_rad:.3f} rad (asked {moved.goal_rad:.3f})"
+    say(f"{moved.joint} went from {way}; at most {moved.most_nm:.2f} of {moved.limit_nm:.2f} N m.")
+    say("Its motor has let go.")
+    return ExitStatus.DONE if is_there else ExitStatus.FAILED
+
+
 @contextmanager
-def _joints(asked: Asked) -> Generator[tuple[Joints, str]]:
+def _joints(asked: OfMap, *, is_still: bool = False) -> Generator[tuple[Joints, str]]:
     """The joint map, and how it is said that its motors are emulated where they are.
 
     Raises:
@@ -155,11 +224,12 @@ def _joints(asked: Asked) -> Generator[tuple[Joints, str]]:
             raise ConfigError([Problem("only emulated motors fail on request", suggestion=cure)])
         yield motor_tools.load_map(path), ""
         return
-    with REALITY.motors(path, flaws=_flaws(asked.fail)) as buses:
+    flaws = _flaws(asked.fail or ())
+    with REALITY.motors(path, flaws=flaws, is_still=is_still) as buses:
         yield motor_tools.load_map(path, buses.channels, by=buses.interface), " (emulated)"
 
 
-def _flaws(fail: tuple[str, ...]) -> Mapping[str, str]:
+def _flaws(fail: Sequence[str]) -> Mapping[str, str]:
     wrong = [one for one in fail if "=" not in one]
     if wrong:
         cure = "write JOINT=FLAW, as in left_knee=silent"

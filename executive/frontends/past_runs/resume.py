@@ -9,11 +9,13 @@ from pathlib import Path
 from executive.frontends import carrying_out
 from executive.frontends.carrying_out import Prepared
 from executive.frontends.composition_root import REALITY
+from executive.frontends.driving import chosen
 from executive.frontends.launching import FrontEnd, from_plain_options, launch, now_stamp, under_way
 from executive.frontends.options import Shown
 from executive.frontends.output import say
 from executive.frontends.past_runs import printing
 from executive.journal import past_runs
+from executive.meaning.request import Setting
 from executive.runs import run_folder
 from executive.runs.again import catching_up, recording
 from executive.runs.again.catching_up import CannotGoOn, Screen
@@ -89,10 +91,21 @@ def go_on_live(wanted: GoOn, handle: Handle | None = None) -> int:
             if there
             else run_folder.folder_for(recorded.header.text, stamp=now_stamp(), base=beside)
         )
-        setup = Setup(where=where, kind="live", seed=recorded.header.seed, folder=folder)
+        setup = Setup(
+            where=where,
+            kind="live",
+            seed=recorded.header.seed,
+            folder=folder,
+            driver=there.motors if there else _driver(recorded, where, err=wanted.as_json),
+        )
         return Prepared(assignment=assignment, setup=setup, left=left)
 
     return carrying_out.carry_out(prepare, wanted, handle)
+
+
+def _driver(recorded: Recording, where: Setting, *, err: bool) -> str:
+    """The driver that moved its motors. Raises ConfigError if it cannot any more."""
+    return chosen(recorded.header.driver, where.description, fast=False, err=err)
 
 
 in_executive = from_plain_options(GoOn, go_on_live)

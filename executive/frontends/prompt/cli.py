@@ -63,6 +63,8 @@ def go_on_with(recorded: Recording, model: Path | None) -> int:
         world=header.world,
         robot=header.robot,
         seed=header.seed,
+        reality=header.reality,
+        driver=header.driver,
         fast=header.runtime == "fast",
         vary=header.varied,
         model=model,

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import NamedTuple
+from typing import Literal, NamedTuple
+
+from robot.messages import MotorAlarm
 
 
 class Level(IntEnum):
     """What is done, from nothing to the most.
 
-    HOLD: every joint keeps its last target. SIT: the robot should be lowered; until something above
-    does that, it holds.
+    HOLD: every joint keeps its last target. SIT: whoever commands lowers the robot
+    (`robot.control.lowering`), so that commands pass.
     """
 
     OK = 0
@@ -18,6 +20,14 @@ class Level(IntEnum):
     DERATE = 2
     HOLD = 3
     SIT = 4
+
+
+NAMES: dict[Level, Literal["WARN", "DERATE", "HOLD", "SIT"]] = {
+    Level.WARN: "WARN",
+    Level.DERATE: "DERATE",
+    Level.HOLD: "HOLD",
+    Level.SIT: "SIT",
+}
 
 
 class Alarm(NamedTuple):
@@ -66,6 +76,16 @@ class Alarms:
     def on(self) -> tuple[Alarm, ...]:
         """All of them, the most severe first."""
         return tuple(sorted(self._on.values(), key=lambda alarm: -alarm.level))
+
+    def messages(self) -> tuple[MotorAlarm, ...]:
+        """All of them for whoever commands, the most severe first."""
+        if not self._on:
+            return ()
+        return tuple(
+            MotorAlarm(one.code, one.who, NAMES[one.level], one.cause, one.cure)
+            for one in self.on
+            if one.level in NAMES
+        )
 
     def sound(self, alarm: Alarm) -> None:
         """Begin one; one that is latched stays, whatever comes after it."""

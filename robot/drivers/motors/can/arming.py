@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import msgspec
+
 from robot.clock import Clock
 from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.interview import WAITS_S, Answers, exchange, read_registers
@@ -37,8 +39,7 @@ def arm(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> N
         if status.get(name) != ENABLED
     ]
     if refused:
-        frames = [(one.bus, one.family.disable(one.id)) for one in joints.joints.values()]
-        exchange(ports, clock, frames, lambda _: None)
+        disable(ports, clock, joints, ranges)
         raise DriverError(f"all motors are disabled again: {', '.join(refused)}")
 
 
@@ -52,6 +53,27 @@ def leave_damping(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ran
     _set_watchdogs(ports, clock, joints, 0.0)
 
 
+def disable(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> list[str]:
+    """Let every motor go, so that it gives no torque; the joints that were not seen to do so."""
+    still = dict(joints.joints)
+    for wait_s in WAITS_S:
+        frames = [(one.bus, one.family.disable(one.id)) for one in still.values()]
+        told = _told_by(ports, clock, joints, ranges, frames, wait_s=wait_s)
+        still = {name: one for name, one in still.items() if told.get(name, ENABLED) == ENABLED}
+        if not still:
+            break
+    return list(still)
+
+
+def watchdogs(joints: JointMap, timeout_s: float) -> list[tuple[str, Frame]]:
+    """What sets the watchdogs of all motors that have one in a register."""
+    return [
+        (one.bus, asking.write(one.id, asking.settings.watchdog, _units(one, timeout_s)))
+        for one in joints.joints.values()
+        if (asking := one.family.asking) is not None
+    ]
+
+
 def _set_watchdogs(ports: Ports, clock: Clock, joints: JointMap, timeout_s: float) -> list[str]:
     """Write them and read them back; who did not take it."""
     asked = {name: one for name, one in joints.joints.items() if one.family.asking is not None}
@@ -59,12 +81,8 @@ def _set_watchdogs(ports: Ports, clock: Clock, joints: JointMap, timeout_s: floa
         return []
     missing = dict(asked)
     for wait_s in WAITS_S:
-        frames: list[tuple[str, Frame]] = []
-        for one in missing.values():
-            if (asking := one.family.asking) is not None:
-                units = round(timeout_s / asking.settings.watchdog_unit_s)
-                frames.append((one.bus, asking.write(one.id, asking.settings.watchdog, units)))
-        exchange(ports, clock, frames, lambda _: None, wait_s=wait_s)
+        few = msgspec.structs.replace(joints, joints=missing)
+        exchange(ports, clock, watchdogs(few, timeout_s), lambda _: None, wait_s=wait_s)
         answers = {name: Answers() for name in missing}
         for number in {_watchdog(one) for one in missing.values()}:
             read_registers(ports, clock, missing, answers, number)
@@ -89,6 +107,26 @@ def _units(joint: JointMotor, timeout_s: float) -> int:
 
 def _enable(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> dict[str, int]:
     """The status of each after it was told to: of those that answered."""
+    status: dict[str, int] = {}
+    for wait_s in WAITS_S:
+        missing = [one for name, one in joints.joints.items() if status.get(name) != ENABLED]
+        if not missing:
+            break
+        frames = [(one.bus, one.family.enable(one.id)) for one in missing]
+        status |= _told_by(ports, clock, joints, ranges, frames, wait_s=wait_s)
+    return status
+
+
+def _told_by(
+    ports: Ports,
+    clock: Clock,
+    joints: JointMap,
+    ranges: list[Ranges],
+    frames: list[tuple[str, Frame]],
+    *,
+    wait_s: float,
+) -> dict[str, int]:
+    """Send frames, and hear for a while which status each joint's motor tells."""
     by_reply = {
         (one.bus, one.answers_as): (name, most)
         for (name, one), most in zip(joints.joints.items(), ranges, strict=True)
@@ -104,12 +142,7 @@ def _enable(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) 
         if told is not None:
             status[name] = told.status
 
-    for wait_s in WAITS_S:
-        missing = [one for name, one in joints.joints.items() if status.get(name) != ENABLED]
-        if not missing:
-            break
-        frames = [(one.bus, one.family.enable(one.id)) for one in missing]
-        exchange(ports, clock, frames, take, wait_s=wait_s)
+    exchange(ports, clock, frames, take, wait_s=wait_s)
     return status
 
 

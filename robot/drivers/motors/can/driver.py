@@ -15,6 +15,7 @@ from robot.drivers.motors.can.alarms import Alarms, Level
 from robot.drivers.motors.can.claim import Claim
 from robot.drivers.motors.can.coding import Coding
 from robot.drivers.motors.can.emulated import EmulatedBuses, PlantClock, buses_in
+from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.gearing import Gearing
 from robot.drivers.motors.can.interview import interview
 from robot.drivers.motors.can.joint_map import JointMap
@@ -30,6 +31,8 @@ from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.se3 import Array
 
+INHERITS_PERIODS = 3
+"""For so many at most replies are waited for of motors that another program left enabled."""
 LOOKS = 2
 """A period, for what came in: to wake up for every reply would take a third of a core more."""
 
@@ -65,7 +68,7 @@ class CanMotors(Closing):
     """All motors of a joint map.
 
     A command is sent once, replies are awaited until the next period begins. What they tell, and
-    that they do not, sounds `alarms`; from HOLD on it is those that decide what is sent.
+    that they do not, sounds `alarms`; at HOLD it is those that decide what is sent.
 
     Attributes:
         joints: the map, in the order of every array.
@@ -82,6 +85,7 @@ class CanMotors(Closing):
         *,
         ports: Callable[[], Ports],
         tell: Callable[[str], None] = _nobody,
+        lets_go: bool = False,
     ) -> None:
         """Know the motors; nothing is opened.
 
@@ -90,11 +94,14 @@ class CanMotors(Closing):
             clock: of its periods.
             ports: opens its buses.
             tell: hears a line of every alarm, and at the end how well replies came.
+            lets_go: whether motors are disabled at the end, and so give no torque, in place of
+                damping on by themselves: for one joint on a bench, not for a robot on its feet.
         """
         self.joints = joints
         self.alarms = Alarms()
         self.late = 0
         self._tell, self._told = tell, frozenset[str]()
+        self._lets_go = lets_go
         self._periods = self._lost_before = 0
         self._clock, self._opens = clock, ports
         self._motors = list(joints.joints.values())
@@ -106,6 +113,8 @@ class CanMotors(Closing):
         self._is_armed = False
         self._asked = False
         self._asks = True
+        self._claimed_s = np.inf
+        self._unset: list[tuple[str, Frame]] = []
         self._sent: MotorCommand | None = None
         self._held: MotorCommand | None = None
         self._tick_s = 0.0
@@ -160,12 +169,21 @@ class CanMotors(Closing):
         self.reception = Reception(self.joints, self.ranges, self._coding)
 
     def close(self) -> None:
-        """Leave the motors damping for themselves, if they are commanded from here, and close."""
+        """Leave the motors damping for themselves, if they are commanded from here, and close.
+
+        Raises:
+            DriverError: if they were to be disabled, and one was not seen to do so.
+        """
         ports, self._ports = self._ports, None
         if ports is None:
             return
         try:
-            if self._is_armed:
+            if self._is_armed and self._lets_go:
+                on = arming.disable(ports, self._clock, self.joints, self.ranges)
+                if on:
+                    text = f"not seen to let go: {', '.join(on)}"
+                    raise DriverError(f"{text} (cut the power before you touch them)")
+            elif self._is_armed:
                 arming.leave_damping(ports, self._clock, self.joints, self.ranges)
         finally:
             self._is_armed = False
@@ -184,7 +202,11 @@ class CanMotors(Closing):
         )
 
     def claim(self) -> bool:
-        """Become the one that commands these buses; False while another one does."""
+        """Become the one that commands these buses; False while another one does.
+
+        Where that one died a moment ago its motors are still enabled: they are asked at once, and
+        the next command goes to them as they are.
+        """
         ports = self._opened()
         if self._claim.is_held:
             return True
@@ -192,6 +214,10 @@ class CanMotors(Closing):
             for _ in range(STALE_CALLS):  # what nobody read meanwhile is of the past
                 if not ports.receive_packed():
                     break
+            self._claimed_s = self._clock.now_s()
+            self._tick_s = self._claimed_s + self.joints.period_s
+            self._asks = True
+            self.reception.forget_where()
         return taken
 
     @property
@@ -212,7 +238,7 @@ class CanMotors(Closing):
     # --- read ------------------------------------------------------------------------------------
 
     def read(self) -> MotorState:
-        """The state at the end of this period. Raises DriverError if a bus went away."""
+        """The state at the end of this period. Raises DriverError if all buses went away."""
         ports = self._opened()
         commands = self._asked
         if not commands and self._asks:
@@ -232,12 +258,14 @@ class CanMotors(Closing):
                 self._flush(ports)
             if (ended_s := self._clock.now_s()) >= until_s - SAME_S:
                 break
+        for bus, why in ports.gone.items():
+            self._watch.unplugged(bus, why)
         begun_s = ended_s if ended_s - until_s < SAME_S else until_s
         self._tick_s = begun_s + self.joints.period_s
         self._asked = False
         state = self._state()
         if not commands:
-            self._asks = self._is_alone()
+            self._asks = self._claim.is_held or self._is_alone()
         return state
 
     def _is_alone(self) -> bool:
@@ -271,9 +299,38 @@ class CanMotors(Closing):
             tau=tau,
             temperature_c=heard.temperature_c.copy(),
             age_s=now_s - heard.heard_s,
-            watchdog=not self._is_armed or let_go,
-            command_stamp_s=self._sent.stamp_s if self._sent is not None else -np.inf,
+            watchdog=not (self._is_armed or self._is_left_enabled) or let_go,
+            command_stamp_s=self._commanded_s(now_s),
+            alarms=self.alarms.messages() if self._is_armed else (),
         )
+
+    def _commanded_s(self, now_s: float) -> float:
+        """Of the last command; that of another program is no older than the motors' watchdog."""
+        if self._sent is not None:
+            return self._sent.stamp_s
+        return now_s if self._is_left_enabled else -np.inf
+
+    @property
+    def _is_left_enabled(self) -> bool:
+        """Whether a program that commanded until a moment ago left all motors enabled.
+
+        They were what the map says when it enabled them; it was not asked again here.
+        """
+        heard = self.reception
+        if self._is_known or self._is_armed or not self._claim.is_held:
+            return False
+        return bool((heard.heard_s >= self._claimed_s).all() and (heard.status == ENABLED).all())
+
+    def _inherit(self) -> bool:
+        """Take over motors that are still enabled; False if any is not."""
+        for _ in range(INHERITS_PERIODS):
+            if self._is_known or (self.reception.heard_s >= self._claimed_s).all():
+                break
+            self.read()
+        if not self._is_left_enabled:
+            return False
+        self._unset = arming.watchdogs(self.joints, self.joints.watchdog_s)
+        return True
 
     def _tell_alarms(self, now_s: float) -> None:
         """Say what is new."""
@@ -293,7 +350,7 @@ class CanMotors(Closing):
     def write(self, command: MotorCommand) -> MotorCommand:
         """Send a command, limited; returns what the frames say.
 
-        While an alarm says HOLD or SIT, the last targets are sent in its place.
+        While an alarm says HOLD, the last targets are sent in its place.
 
         Raises:
             DriverError: if a value is not finite or a shape is wrong (nothing is sent), another
@@ -304,10 +361,10 @@ class CanMotors(Closing):
         if not self.claim():
             raise DriverError("another controller commands the motors")
         if not self._is_armed:
-            if not self._is_known:
-                self._interview(ports)
-                self._understand()
-            arming.arm(ports, self._clock, self.joints, self.ranges)
+            if self._inherit():
+                self._tell("the motors were left enabled: they are commanded as they are")
+            else:
+                self._arm(ports)
             self._is_armed = True
             self._lost_before, self._periods = self.reception.lost, 0
             self.reception.status[:] = ENABLED
@@ -316,12 +373,20 @@ class CanMotors(Closing):
         measured = Measured(q, qd, self.reception.temperature_c)
         limited = self.limiter.apply(self._decided(command, q), measured)
         self._sent = self._send(ports, limited)
+        # Behind the first commands: who left the motors may have switched their watchdogs off.
+        self._unset = [(bus, frame) for bus, frame in self._unset if not ports.send(bus, frame)]
         return self._sent
+
+    def _arm(self, ports: Ports) -> None:
+        """Enable all motors. Raises DriverError if one is not what the map says, or does not."""
+        if not self._is_known:
+            self._interview(ports)
+            self._understand()
+        arming.arm(ports, self._clock, self.joints, self.ranges)
 
     def _decided(self, command: MotorCommand, q: Array) -> MotorCommand:
         """The command, or what an alarm wants in its place."""
-        level = self.alarms.level
-        if level < Level.HOLD:
+        if self.alarms.level != Level.HOLD:
             self._held = None
             return command
         if self._sent is None:

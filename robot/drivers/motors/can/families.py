@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from robot.drivers.motors.can import mit11, mit11_arrays
@@ -45,7 +45,7 @@ class Family:
         is_extended: whether its identifiers have 29 bits, for the load of a bus.
         kp_max, kd_max: the largest gains its frames can say.
         command, target: a target into a frame, and what a frame really says.
-        enable, disable, clear_fault: by identifier; not every motor can forget a fault.
+        enable, disable, clear_fault, set_zero: by identifier; not every motor can forget a fault.
         feedback: what a reply says.
         arrays: the same commands and replies, for several motors with these ranges at once.
         status: what a status code says.
@@ -60,6 +60,7 @@ class Family:
     enable: Callable[[int], Frame]
     disable: Callable[[int], Frame]
     clear_fault: Callable[[int], Frame] | None
+    set_zero: Callable[[int], Frame]
     feedback: Callable[[bytes, Ranges], Feedback | None]
     arrays: Callable[[Sequence[Ranges]], ManyMit11]
     status: Callable[[int], Status]
@@ -84,33 +85,25 @@ _DAMIAO = Asking(
     reply=mit11.register_reply,
 )
 
+_MIT = Family(
+    is_extended=False,
+    kp_max=mit11.KP_MAX,
+    kd_max=mit11.KD_MAX,
+    command=mit11.command,
+    target=mit11.target,
+    enable=mit11.enable,
+    disable=mit11.disable,
+    clear_fault=mit11.clear_fault,
+    set_zero=mit11.set_zero,
+    feedback=mit11.feedback,
+    arrays=mit11_arrays.damiao,
+    status=mit11.status,
+    asking=_DAMIAO,
+)
+
 FAMILIES: dict[str, Family] = {
-    "damiao": Family(
-        is_extended=False,
-        kp_max=mit11.KP_MAX,
-        kd_max=mit11.KD_MAX,
-        command=mit11.command,
-        target=mit11.target,
-        enable=mit11.enable,
-        disable=mit11.disable,
-        clear_fault=mit11.clear_fault,
-        feedback=mit11.feedback,
-        arrays=mit11_arrays.damiao,
-        status=mit11.status,
-        asking=_DAMIAO,
-    ),
-    "tmotor": Family(
-        is_extended=False,
-        kp_max=mit11.KP_MAX,
-        kd_max=mit11.KD_MAX,
-        command=mit11.command,
-        target=mit11.target,
-        enable=mit11.enable,
-        disable=mit11.disable,
-        clear_fault=None,
-        feedback=mit11.feedback_ak,
-        arrays=mit11_arrays.ak,
-        status=mit11.status,
-        asking=None,
+    "damiao": _MIT,
+    "tmotor": replace(
+        _MIT, clear_fault=None, feedback=mit11.feedback_ak, arrays=mit11_arrays.ak, asking=None
     ),
 }

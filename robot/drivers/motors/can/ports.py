@@ -49,6 +49,11 @@ def socket_path(folder: Path, number: int) -> Path:
 class Ports(Closing, Protocol):
     """The buses, opened by entering and closed by leaving."""
 
+    @property
+    def gone(self) -> Mapping[str, str]:
+        """Buses whose interface went away while packed frames were exchanged, and why."""
+        ...
+
     def send(self, bus: str, frame: Frame) -> bool:
         """Hand a frame to the interface; False at once if its queue is full.
 
@@ -68,8 +73,10 @@ class Ports(Closing, Protocol):
     def send_packed(self, bus: str, frames: bytes) -> int:
         """Hand over packed frames (`packed`), one after the other; how many were taken at once.
 
+        What is for a bus that is gone is dropped.
+
         Raises:
-            DriverError: if the interface is down or gone.
+            DriverError: if all interfaces are gone.
         """
         ...
 
@@ -77,7 +84,7 @@ class Ports(Closing, Protocol):
         """What has come in by now: buses and their packed frames, those of errors included.
 
         Raises:
-            DriverError: if an interface went away.
+            DriverError: if all interfaces are gone.
         """
         ...
 
@@ -96,6 +103,7 @@ class PythonCan(Closing):
         self._by_fd: dict[int, str] = {}
         self._sockets: dict[str, socket.socket] = {}
         self._poll = select.poll()
+        self._gone: dict[str, str] = {}
 
     def __enter__(self) -> Self:
         """Open all. Raises DriverError naming the one that cannot be, and the cure."""
@@ -121,8 +129,24 @@ class PythonCan(Closing):
                 self._sockets[name] = found
         return self
 
+    @property
+    def gone(self) -> Mapping[str, str]:
+        """Buses that went away, and why: the others go on."""
+        return self._gone
+
+    def _lose(self, bus: str, why: str) -> None:
+        """Go on without a bus. Raises DriverError if it was the last."""
+        self._gone[bus] = why
+        for fd in [fd for fd, name in self._by_fd.items() if name == bus]:
+            self._poll.unregister(fd)
+            del self._by_fd[fd]
+        if len(self._gone) == len(self._buses):
+            raise DriverError(why)
+
     def send(self, bus: str, frame: Frame) -> bool:
         """Hand a frame over; False if the queue is full. Raises DriverError if it is down."""
+        if bus in self._gone:
+            return True
         message = can.Message(
             arbitration_id=frame.id, data=frame.data, is_extended_id=frame.is_extended
         )
@@ -152,7 +176,16 @@ class PythonCan(Closing):
         return heard
 
     def send_packed(self, bus: str, frames: bytes) -> int:
-        """Hand packed frames over; how many were taken. Raises DriverError if it is down."""
+        """Hand packed frames over; how many were taken. Raises DriverError if all are down."""
+        try:
+            return self._hand_over(bus, frames)
+        except DriverError as error:
+            self._lose(bus, str(error))
+            return len(frames) // SIZE
+
+    def _hand_over(self, bus: str, frames: bytes) -> int:
+        if bus in self._gone:
+            return len(frames) // SIZE
         taken, found = 0, self._sockets.get(bus)
         if found is None:
             for begin in range(0, len(frames), SIZE):
@@ -172,13 +205,18 @@ class PythonCan(Closing):
         return taken
 
     def receive_packed(self) -> Sequence[tuple[str, bytes]]:
-        """What has come in, by bus. Raises DriverError if an interface went away."""
+        """What has come in, by bus. Raises DriverError if all interfaces went away."""
         heard: list[tuple[str, bytes]] = []
         for fd, _ in self._poll.poll(0):
             name = self._by_fd[fd]
             found = self._sockets.get(name)
             frames = self._of_bus(name) if found is None else _of_socket(name, found)
-            if together := b"".join(frames):
+            try:
+                together = b"".join(frames)
+            except DriverError as error:
+                self._lose(name, str(error))
+                continue
+            if together:
                 heard.append((name, together))
         return heard
 

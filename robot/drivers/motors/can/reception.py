@@ -61,6 +61,10 @@ class Reception:
             self._by_key[self._first_key[one.bus] + one.answers_as] = index
         self._fastest: Array = np.array([FASTER * one.velocity_rad_s for one in ranges])
 
+    def forget_where(self) -> None:
+        """Believe whatever position comes next: a motor's zero was moved."""
+        self.heard_s[:] = -np.inf
+
     def take(self, came: Sequence[tuple[str, bytes]], now_s: float) -> Sequence[str]:
         """Packed frames that came in, by bus; returns the buses that went off.
 

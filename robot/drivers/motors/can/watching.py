@@ -48,6 +48,11 @@ class Watch:
             Alarm("bus_off", bus, Level.SIT, "the bus is off", cure, is_latched=True)
         )
 
+    def unplugged(self, bus: str, why: str) -> None:
+        """The interface of a bus went away."""
+        cure = "plug it in, see that it is up (ip link show), and start again"
+        self._alarms.sound(Alarm("unplugged", bus, Level.SIT, why, cure, is_latched=True))
+
     def look(
         self,
         now_s: float,

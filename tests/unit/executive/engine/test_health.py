@@ -22,7 +22,7 @@ from executive.engine.sense import Sense
 from executive.health import Health, Level
 from robot.bus.topics import TOPICS
 from robot.failures import CATALOGUE
-from robot.messages import CameraState, LoopTiming, PowerState, WorldState
+from robot.messages import CameraState, LoopTiming, MotorAlarm, PowerState, WorldState
 from robot.se3 import SE3
 from tests.fakes.puppet import Puppet
 from tests.fakes.worlds import puppet
@@ -286,3 +286,19 @@ def test_how_hot_a_motor_is_by_now_is_journalled(robot):
         data["evidence"]["temperature_c"] if "evidence" in data else data["level"] for data in told
     ]
     assert said == [80.0, 85.0, 91.0, 85.9, "OK"]
+
+
+@pytest.mark.parametrize("level", ["WARN", "DERATE", "HOLD", "SIT"])
+def test_an_alarm_of_a_motor_is_told_at_its_level_with_joint_cause_and_cure(robot, level):
+    alarm = MotorAlarm("silent", "left_knee", level, "silent for 3 periods", "check its cable")
+    body = replace(robot.body(), alarms=(alarm,))
+    stamps = dict.fromkeys(RATES, 100.0)
+    health = HealthMonitor(RATES, start_s=0.0, speed_m_s=1.0).look(
+        100.0, stamps, body=body, world=None
+    )
+    (finding,) = health.findings
+    assert (finding.name, finding.level) == ("motor left_knee", Level[level])
+    assert finding.failure.code == "motor_fault"
+    assert finding.failure.cause == "left_knee: silent for 3 periods"
+    assert finding.failure.suggestion == "check its cable"
+    assert (health.speed_m_s < 1.0) == (level == "DERATE")

@@ -94,6 +94,8 @@ def test_two_that_answer_to_one_identifier_are_seen_by_a_scan(file):
         (["read", "--emulated", "--fail", "elbow=silnt"], "did you mean 'silent'"),
         (["watch", "--emulated", "--fail", "elbwo=silent"], "there is no joint 'elbwo'"),
         (["scan", "--map", "nowhere.yaml"], "there is no such file"),
+        (["jog", "elbwo", "--by", "0.1", "--emulated"], "did you mean 'elbow'"),
+        (["zero", "elbwo", "--emulated"], "did you mean 'elbow'"),
     ],
 )
 def test_what_cannot_be_meant_is_said_with_its_cure(file, words, said):
@@ -116,14 +118,46 @@ def test_a_bus_that_is_not_there_is_an_error_with_the_command_that_sets_it_up():
     assert "ip link set nocan7 up type can bitrate 1000000" in str(result.exception)
 
 
-@pytest.mark.parametrize("command", ["scan", "read", "check", "watch"])
+@pytest.mark.live
+def test_jog_zero_and_log_say_what_they_did_to_emulated_motors(file, tmp_path):
+    moved = motors("jog", "elbow", "--by", 0.2, "--map", file, "--emulated", "--json")
+    assert moved.exit_code == 0, moved.output
+    jog = json.loads(moved.stdout)["jog"]
+    assert jog["to_rad"] - jog["from_rad"] == pytest.approx(0.2, abs=0.06)
+    assert jog["most_nm"] <= jog["limit_nm"] == pytest.approx(8.0)
+    found = motors("zero", "elbow", "--at", 1.0, "--in-motor", "--map", file, "--emulated")
+    assert found.exit_code == 0, found.output
+    assert "elbow stands at 1.2" in found.stdout
+    assert "Write offset_rad: 1.0000 at elbow" in found.stdout
+    path = tmp_path / "log.csv"
+    logged = motors("log", path, "--for", 0.3, "--map", file, "--emulated")
+    assert logged.exit_code == 0, logged.output
+    assert len(path.read_text().splitlines()) > 50
+
+
+def test_a_log_does_not_replace_a_file(file, tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text("kept")
+    result = motors("log", path, "--map", file, "--emulated")
+    assert isinstance(result.exception, ConfigError)
+    assert "there already" in str(result.exception)
+    assert path.read_text() == "kept"
+
+
+@pytest.mark.parametrize(
+    "command",
+    ["scan", "read", "check", "watch", ["zero", "elbow"], ["jog", "elbow", "--by", 0.1],
+     ["log", "new.csv"]],
+)  # fmt: skip
 def test_a_bus_of_a_map_is_opened_only_if_the_user_lets_robots_open_it(file, command, monkeypatch):
     """A map may be a stranger's: it could name any interface, that of another machine too."""
     monkeypatch.setattr("can.Bus", lambda **_: pytest.fail("it was opened"))
     file.write_text(ARM.replace("channel: can0", "channel: tcp.example, interface: socketcand"))
     assert "interface: socketcand" in file.read_text()
-    result = motors(command, "--map", file)
+    words = [command] if isinstance(command, str) else command
+    result = motors(*words, "--map", file)
     assert isinstance(result.exception, DriverError)
+    assert not Path("new.csv").exists()
     assert 'devices = ["socketcand:tcp.example"]' in str(result.exception)
 
 

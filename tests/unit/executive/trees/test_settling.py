@@ -127,7 +127,9 @@ def test_what_fails_with_one_does_not_keep_the_others(fails):
     assert all(thing in done for thing in things if thing != things[fails])
 
 
-@pytest.mark.parametrize("code", sorted(HOPELESS - {"emergency_stop", "battery_low", "overheated"}))
+@pytest.mark.parametrize(
+    "code", sorted(HOPELESS - {"emergency_stop", "battery_low", "overheated", "motor_fault"})
+)
 def test_a_robot_that_cannot_go_on_does_not_try_the_next(code):
     rig = Rig({PickParams: [Script(code=code)]})
     rig.stage.recovers = False

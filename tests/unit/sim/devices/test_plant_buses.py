@@ -9,7 +9,7 @@ from robot.drivers.body_sample import BodySample
 from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.can import emulated, joint_map
 from robot.drivers.motors.can.joint_map import MotorRanges
-from robot.errors import ConfigError
+from robot.errors import ConfigError, DriverError
 from robot.messages import Walk
 from robot.model import description
 from sim import world
@@ -126,6 +126,79 @@ def test_the_controller_walks_by_frames_alone(robot, rig):
     assert lines == [
         "CAN: 33 joints, 899 periods at 500 Hz, 0 replies late (0.000%), 0 periods late"
     ]
+
+
+@pytest.mark.parametrize("after_s", [0.002, 0.008])
+def test_a_spare_holds_up_a_robot_whose_controller_was_killed_in_mid_step(robot, rig, after_s):
+    def play(driver, loop, periods: int) -> None:
+        for _ in range(periods):
+            state, felt = driver.read(), rig.plant.sample
+            driver.write(loop.tick(BodySample(state, felt.imu, felt.force)))
+
+    loop, spare_loop, lines = ControlLoop(robot), ControlLoop(robot), list[str]()
+    first = rig.driver().__enter__()
+    play(first, loop, 20)
+    with rig.driver(lines.append) as spare:
+        play(first, loop, 130)
+        loop.handle(Walk(stamp_s=rig.now_s(), id=1, forward_m_s=0.3, hold_s=9.0))
+        play(first, loop, 500)
+        assert loop.mode == "walk"
+        first._is_armed = False  # it is killed, and its sockets close
+        first.close()
+        died_s = rig.now_s()
+        rig.sleep_until(died_s + after_s)  # before the spare notices
+        assert spare.claim()
+        spare_loop.recall(loop.state())
+        play(spare, spare_loop, 1)
+        assert rig.now_s() - died_s <= after_s + 0.004
+        play(spare, spare_loop, 600)
+        assert spare_loop.mode == "stand"
+        assert rig.plant.where(robot.base_body).p[2] > 0.55  # it stands at 0.587 m
+        assert {motor.status for motor in rig.buses.motors} == {1}
+        assert {motor.registers[9] for motor in rig.buses.motors} == {400}
+    assert lines[0] == "the motors were left enabled: they are commanded as they are"
+
+
+def test_a_bus_that_is_unplugged_is_named_within_a_period_and_the_others_go_on(robot, rig):
+    def unplug(*buses: str) -> None:
+        server, wires = rig.buses._server, list(rig.buses._server._wires)
+        lost = [wires[list(rig.joints.buses).index(bus)] for bus in buses]
+        for fd, program in list(server._programs.items()):
+            if program.wire in lost:
+                server._forget(fd)
+
+    bus = rig.joints.joints["left_elbow"].bus
+    there = np.array([one.bus != bus for one in rig.joints.joints.values()])
+    with rig.driver() as driver:
+        for _ in range(50):
+            driver.write(holding(robot, rig.now_s()))
+            driver.read()
+        unplug(bus)
+        driver.write(holding(robot, rig.now_s()))
+        state = driver.read()
+        (alarm,) = state.alarms
+        assert (alarm.code, alarm.who, alarm.level) == ("unplugged", bus, "SIT")
+        assert "went away" in alarm.cause or "does not send" in alarm.cause
+        for _ in range(20):
+            driver.write(holding(robot, rig.now_s()))
+            state = driver.read()
+        assert (state.age_s[there] < 0.002 + 1e-9).all()
+        assert (state.age_s[~there] > 0.03).all()
+        statuses = np.array([motor.status for motor in rig.buses.motors])
+        assert (statuses[there] == 1).all()
+        assert (statuses[~there] == 0xD).all()  # by their own watchdogs
+        unplug(*rig.joints.buses)
+        with pytest.raises(DriverError, match=r"went away|does not send"):
+            for _ in range(2):
+                driver.write(holding(robot, rig.now_s()))
+                driver.read()
+    assert not driver._claim.is_held
+
+
+def test_buses_whose_motors_were_never_enabled_say_so_at_the_end(rig):
+    rig.sleep_until(rig.now_s() + 0.01)
+    rig.buses.close()
+    assert rig.lines == ["emulated CAN: no motor was ever enabled"]
 
 
 def test_a_second_program_asks_for_nothing_while_the_first_commands(robot, rig):

@@ -95,6 +95,85 @@ def test_a_killed_controller_leaves_motors_that_let_go_and_the_next_one_takes_ov
         assert rig.driver.alarms.level == Level.OK
 
 
+def killed(rig: Rig) -> None:
+    """What the system does to a process that is killed: its claim is free, nothing is said."""
+    rig.driver._is_armed = False
+    rig.driver._claim.release()
+
+
+def test_a_spare_commands_the_motors_of_a_killed_controller_before_they_let_go(rig: Rig):
+    with rig.driver:
+        rig.cycle(300, q=0.5)
+        with rig.another() as spare:
+            for _ in range(3):
+                spare.read()
+                rig.cycle(1, q=0.5)
+            killed(rig)
+            died_s = rig.clock.now_s()
+            assert spare.claim()
+            state = spare.read()
+            assert not state.watchdog
+            assert state.command_stamp_s == state.stamp_s  # it takes over: see `took_over`
+            np.testing.assert_allclose(state.q, 0.5, atol=0.08)
+            spare.write(rig.hold(0.5))
+            assert rig.clock.now_s() - died_s <= 2 * PERIOD_S
+            rig.driver, first = spare, rig.driver
+            state = rig.cycle(200, q=0.5)
+            assert [motor.status for motor in rig.bench.devices] == [1, 1, 1]
+            assert spare.alarms.level == Level.OK
+            np.testing.assert_allclose(state.q, 0.5, atol=0.08)
+            rig.driver = first
+
+
+def test_what_a_spare_takes_over_has_a_watchdog_though_it_was_left_without(rig: Rig):
+    with rig.driver:
+        rig.cycle(100)
+        with rig.another() as spare:
+            for motor in rig.bench.devices:
+                motor.registers[9] = 0
+            killed(rig)
+            assert spare.claim()
+            spare.read()
+            spare.write(rig.hold())
+            spare.read()
+            assert [motor.registers[9] for motor in rig.bench.devices] == [400, 400, 400]
+            killed_s = rig.clock.now_s()
+            spare._is_armed = False
+    rig.clock.sleep_until(killed_s + 0.1)
+    rig.bench.advance(rig.clock.now_s())
+    assert {motor.status for motor in rig.bench.devices} == {0xD}
+
+
+def test_a_spare_that_comes_too_late_asks_and_arms_all_motors_anew(rig: Rig):
+    with rig.driver:
+        rig.cycle(100)
+        with rig.another() as spare:
+            killed(rig)
+            rig.clock.sleep_until(rig.clock.now_s() + 0.05)
+            rig.bench.advance(rig.clock.now_s())
+            assert spare.claim()
+            state = spare.read()
+            assert state.watchdog
+            assert state.command_stamp_s == -np.inf
+            rig.driver = spare
+            rig.cycle(10)
+            assert [motor.status for motor in rig.bench.devices] == [1, 1, 1]
+            assert spare._is_known
+
+
+def test_one_motor_that_let_go_or_lost_its_reply_is_no_inheritance(rig: Rig):
+    with rig.driver:
+        rig.cycle(100)
+        with rig.another() as spare:
+            rig.motor("wrist").status = 0
+            killed(rig)
+            assert spare.claim()
+            assert spare.read().watchdog
+            spare.write(rig.hold())
+            assert spare._is_known
+            assert [motor.status for motor in rig.bench.devices] == [1, 1, 1]
+
+
 # --- it refuses to begin -----------------------------------------------------------------------
 
 
@@ -318,6 +397,23 @@ def test_a_motor_that_let_go_is_armed_again_by_a_reset_alone(rig: Rig):
         state = rig.cycle(50)
         assert driver.alarms.level == Level.OK
         assert {motor.status for motor in rig.bench.devices} == {1}
+
+
+def test_at_sit_commands_pass_so_that_the_robot_can_be_lowered_and_the_state_says_why(rig: Rig):
+    with rig.driver as driver:
+        rig.cycle(300, q=0.4)
+        rig.motor("wrist").trouble.silent = True
+        rig.cycle(5, q=0.6)
+        assert rig.cycle(1).alarms[0].level == "HOLD"
+        held = driver.write(rig.hold(0.6)).q_des
+        driver.read()
+        rig.cycle(4, q=0.6)
+        state = rig.cycle(150, q=0.6)
+        (alarm,) = state.alarms
+        assert (alarm.code, alarm.who, alarm.level) == ("silent", "wrist", "SIT")
+        assert alarm.cure
+        assert held[1] < 0.5
+        assert state.q[1] == pytest.approx(0.6, abs=0.06)  # the elbow, which is well, obeys
 
 
 # --- buses that fail ---------------------------------------------------------------------------

@@ -1,0 +1,306 @@
+"""One joint at a workbench: its zero found, and moved a little way by its own motor.
+
+Only the motor of that joint is spoken to. It is enabled by `jog` alone, with a share of its torque,
+and gives none when that ends, however it ends: at its goal, by Ctrl-C, by an alarm. A program that
+is killed leaves a motor that lets go after `WATCHDOG_S`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Literal, TypeAlias
+
+import msgspec
+import numpy as np
+
+from robot.clock import Clock
+from robot.drivers.motor_bus import MotorCommand
+from robot.drivers.motors.can.alarms import Level
+from robot.drivers.motors.can.driver import CanMotors
+from robot.drivers.motors.can.interview import exchange
+from robot.drivers.motors.can.joint_map import JointMap, JointMotor
+from robot.drivers.motors.can.mit11 import DISABLED
+from robot.drivers.motors.can.ports import Ports, PythonCan
+from robot.errors import ConfigError, DriverError, Problem
+from robot.misfits import nearest
+
+Opens: TypeAlias = Callable[[JointMap], Ports]
+"""Makes the buses of a map, which are opened by entering."""
+
+STILL_RAD, STILL_S, WAITS_S = 0.01, 0.3, 10.0
+"""A joint that moved no more than this for so long is still; so long that is waited for."""
+ZERO_SLACK_RAD = 0.02
+LAG_RAD = 0.15
+"""So far behind its target a joint is blocked, or its torque is too little."""
+STIFF_RAD = 0.10
+"""At this distance from its target a joint gives all the torque that it may."""
+DAMPING_SHARE = 0.05
+SETTLES_S, DAMPS_S = 0.3, 0.5
+RATE_HZ, WATCHDOG_S = 100, 0.1
+"""A slow joint needs no more commands, and a busy laptop then loses no reply to speak of."""
+LEAST_SPAN_S = 0.2
+
+
+def opened(joints: JointMap, clock: Clock, opens: Opens | None) -> Ports:
+    """The buses of a map: by python-can, or as a test has them."""
+    return opens(joints) if opens else PythonCan(joints.buses, clock)
+
+
+def only(joints: JointMap, name: str) -> JointMap:
+    """The map of one joint and its bus, at a slow rate.
+
+    Raises:
+        ConfigError: there is no such joint, with the nearest.
+    """
+    joint = joints.joints.get(name)
+    if joint is None:
+        cure = nearest(name, list(joints.joints)) or f"one of {', '.join(joints.joints)}"
+        raise ConfigError([Problem(f"there is no joint {name!r}", joints.file, suggestion=cure)])
+    return msgspec.structs.replace(
+        joints,
+        rate_hz=min(RATE_HZ, joints.rate_hz),
+        watchdog_s=max(WATCHDOG_S, joints.watchdog_s),
+        buses={joint.bus: joints.buses[joint.bus]},
+        joints={name: joint},
+    )
+
+
+# --- zero --------------------------------------------------------------------------------------
+
+
+class Zeroed(msgspec.Struct, frozen=True, kw_only=True):
+    """What a joint's zero is.
+
+    Attributes:
+        joint: its name.
+        was_rad: where it stood by the map as it is.
+        at_rad: where it stands, as somebody says who looks at it.
+        offset_rad: what the map has to say for that.
+        is_in_motor: whether the motor calls this position zero from now on.
+    """
+
+    joint: str
+    was_rad: float
+    at_rad: float
+    offset_rad: float
+    is_in_motor: bool
+
+
+def zero(
+    joints: JointMap,
+    name: str,
+    clock: Clock,
+    *,
+    at_rad: float,
+    in_motor: bool,
+    opens: Opens | None = None,
+) -> Zeroed:
+    """Find what offset a joint has that stands at a known angle, and is still; nothing is enabled.
+
+    Args:
+        joints: the map.
+        name: of the joint.
+        clock: of the wall; another one in tests.
+        at_rad: where it stands.
+        in_motor: whether to let its motor call that position zero, for ever.
+        opens: its buses, in tests.
+
+    Raises:
+        ConfigError: there is no such joint.
+        DriverError: it does not answer, moves, or is commanded by somebody.
+    """
+    one = only(joints, name)
+    joint = one.joints[name]
+    free = _unlimited(one, name)
+    ports = opened(free, clock, opens)
+    with CanMotors(free, clock, ports=lambda: ports, lets_go=True) as driver:
+        if not driver.claim():
+            raise DriverError(f"another program commands the bus of {name}: end that one first")
+        if int(driver.reception.status[0]) != DISABLED:
+            status = joint.family.status(int(driver.reception.status[0])).code.replace("_", " ")
+            cure = "switch it off and on again, or clear its fault; nothing was changed"
+            raise DriverError(f"{name} is {status}, and has to be disabled ({cure})")
+        motor_rad = _still_rad(driver, clock, name)
+        was_rad = joint.joint_rad(motor_rad)
+        if not in_motor:
+            offset_rad = at_rad - joint.sign * motor_rad / joint.gear
+        else:
+            frames = [(joint.bus, joint.family.set_zero(joint.id))]
+            exchange(ports, clock, frames, lambda _: None)
+            driver.reset()
+            driver.reception.forget_where()
+            found_rad = _still_rad(driver, clock, name)
+            if abs(found_rad) > ZERO_SLACK_RAD:
+                text = f"{name} did not take its zero: its motor says {found_rad:.3f} rad"
+                raise DriverError(f"{text} (set it with the maker's tool)")
+            offset_rad = at_rad
+    return Zeroed(
+        joint=name, was_rad=was_rad, at_rad=at_rad, offset_rad=offset_rad, is_in_motor=in_motor
+    )
+
+
+def _unlimited(one: JointMap, name: str) -> JointMap:
+    """The motor's own angles, as far as its frames go: what its map says of them is in question."""
+    joint = one.joints[name]
+    most_rad = joint.expected.position_rad
+    bare = msgspec.structs.replace(
+        joint, sign=1, offset_rad=0.0, gear=1.0, lower_rad=-most_rad, upper_rad=most_rad
+    )
+    return msgspec.structs.replace(one, joints={name: bare})
+
+
+def _still_rad(driver: CanMotors, clock: Clock, name: str) -> float:
+    """Where its motor stands, once it is still. Raises DriverError if it is not, or is silent."""
+    until_s, since_s = clock.now_s() + WAITS_S, clock.now_s()
+    seen: list[float] = []
+    while clock.now_s() < until_s:
+        state = driver.read()
+        if state.age_s[0] > 2.0 * driver.joints.period_s:
+            if driver.alarms.level >= Level.SIT:
+                raise DriverError(f"{name}: {driver.alarms.on[0].cause} (nothing was changed)")
+            continue
+        seen.append(float(state.q[0]))
+        if max(seen) - min(seen) > STILL_RAD:
+            seen, since_s = seen[-1:], clock.now_s()
+        elif clock.now_s() - since_s >= STILL_S:
+            return float(np.mean(seen))
+    raise DriverError(f"{name} is not still (hold it at the angle that you know; nothing changed)")
+
+
+# --- jog ---------------------------------------------------------------------------------------
+
+Ending: TypeAlias = Literal["there", "stopped", "blocked", "alarm"]
+
+
+class Jogged(msgspec.Struct, frozen=True, kw_only=True):
+    """How a joint moved.
+
+    Attributes:
+        joint: its name.
+        from_rad, to_rad, goal_rad: where it was, where it is, where it was to go.
+        most_nm: the largest torque that it told.
+        limit_nm: the largest that it might give.
+        ending: why it ended.
+        why: that in words, for people; "" of one that got there.
+    """
+
+    joint: str
+    from_rad: float
+    to_rad: float
+    goal_rad: float
+    most_nm: float
+    limit_nm: float
+    ending: Ending
+    why: str = ""
+
+
+def jog(
+    joints: JointMap,
+    name: str,
+    clock: Clock,
+    *,
+    by_rad: float,
+    speed_rad_s: float,
+    torque_share: float,
+    opens: Opens | None = None,
+) -> Jogged:
+    """Move one joint by an angle, gently; its motor lets go afterwards.
+
+    Args:
+        joints: the map.
+        name: of the joint.
+        clock: of the wall; another one in tests.
+        by_rad: how far, from where it is.
+        speed_rad_s: at most.
+        torque_share: of the joint's torque limit that it may give.
+        opens: its buses, in tests.
+
+    Raises:
+        ConfigError: there is no such joint, or it must not go there.
+        DriverError: its motor is not what the map says, somebody else commands it, or it was not
+            seen to let go.
+    """
+    one = only(joints, name)
+    joint = one.joints[name]
+    limit_nm = torque_share * joint.torque_limit_nm
+    weak = msgspec.structs.replace(joint, torque_limit_nm=limit_nm)
+    one = msgspec.structs.replace(one, joints={name: weak})
+    with CanMotors(one, clock, ports=lambda: opened(one, clock, opens), lets_go=True) as driver:
+        from_rad = float(driver.read().q[0])
+        goal_rad = from_rad + by_rad
+        _check_goal(joint, name, from_rad, goal_rad)
+        return _Jog(driver, clock, from_rad=from_rad, goal_rad=goal_rad, speed=speed_rad_s).run()
+
+
+def _check_goal(joint: JointMotor, name: str, from_rad: float, goal_rad: float) -> None:
+    """Refuse a goal outside the joint's limits, before anything is enabled."""
+    if joint.lower_rad <= goal_rad <= joint.upper_rad:
+        return
+    text = f"{name} is at {from_rad:.3f} rad and must stay within {joint.lower_rad:g} and"
+    low, high = joint.lower_rad - from_rad, joint.upper_rad - from_rad
+    cure = f"--by {max(low, -9.99):.3f} to {min(high, 9.99):.3f}"
+    raise ConfigError([Problem(f"{text} {joint.upper_rad:g}", suggestion=cure)])
+
+
+class _Jog:
+    """One motion: along half a cosine, held for a moment, then damped out."""
+
+    def __init__(
+        self,
+        driver: CanMotors,
+        clock: Clock,
+        *,
+        from_rad: float,
+        goal_rad: float,
+        speed: float,
+    ) -> None:
+        self._driver, self._clock = driver, clock
+        ((self._name, joint),) = driver.joints.joints.items()
+        self._from_rad, self._goal_rad = from_rad, goal_rad
+        self._limit_nm = joint.torque_limit_nm
+        speed = min(speed, joint.velocity_limit_rad_s)
+        self._span_s = max(LEAST_SPAN_S, 0.5 * math.pi * abs(goal_rad - from_rad) / speed)
+        self._kp = self._limit_nm / STIFF_RAD
+        self._most_nm, self._q = 0.0, from_rad
+
+    def run(self) -> Jogged:
+        try:
+            ending, why = self._move()
+        except KeyboardInterrupt:
+            ending, why = "stopped", "stopped on request"
+        self._damp()
+        return Jogged(
+            joint=self._name, from_rad=self._from_rad, to_rad=self._q, goal_rad=self._goal_rad,
+            most_nm=self._most_nm, limit_nm=self._limit_nm, ending=ending, why=why,
+        )  # fmt: skip
+
+    def _move(self) -> tuple[Ending, str]:
+        self._command(self._from_rad, 0.0, 0.0)  # enables the motor, which takes its time
+        begun_s = self._clock.now_s()
+        while (passed_s := self._clock.now_s() - begun_s) <= self._span_s + SETTLES_S:
+            target_rad = self._target(passed_s)
+            if (lag_rad := abs(target_rad - self._q)) > LAG_RAD:
+                cure = "look for what blocks it, or give it more with --torque"
+                return "blocked", f"it is {lag_rad:.2f} rad behind ({cure})"
+            self._command(target_rad, self._kp, DAMPING_SHARE * self._kp)
+            if (alarms := self._driver.alarms).level >= Level.HOLD:
+                return "alarm", f"{alarms.on[0].cause} ({alarms.on[0].cure})"
+        return "there", ""
+
+    def _target(self, passed_s: float) -> float:
+        share = 0.5 - 0.5 * math.cos(math.pi * min(1.0, passed_s / self._span_s))
+        return self._from_rad + share * (self._goal_rad - self._from_rad)
+
+    def _command(self, target_rad: float, kp: float, kd: float) -> None:
+        values = (np.array([value]) for value in (target_rad, 0.0, 0.0, kp, kd))
+        self._driver.write(MotorCommand(self._clock.now_s(), *values))
+        state = self._driver.read()
+        self._q = float(state.q[0])
+        self._most_nm = max(self._most_nm, abs(float(state.tau[0])))
+
+    def _damp(self) -> None:
+        """Slow it down before it is let go; what cannot be is let go at once."""
+        until_s = self._clock.now_s() + DAMPS_S
+        while self._clock.now_s() < until_s and self._driver.alarms.level < Level.HOLD:
+            self._command(self._q, 0.0, DAMPING_SHARE * self._kp)
