@@ -189,13 +189,22 @@ class ImuBias(msgspec.Struct, frozen=True, kw_only=True):
     accel_sigma_m_s2: Vector3
 
 
+class Landing(msgspec.Struct, frozen=True, kw_only=True):
+    """Where a sole is to land: its middle and heading on the floor of N [m, rad]."""
+
+    side: Side
+    x_m: float
+    y_m: float
+    yaw_rad: float
+
+
 class BodyState(Message, frozen=True, kw_only=True):
     """The body as the controller believes it to be; estimated, not true.
 
     `q_rad`, `qd_rad_s`, `tau_nm` are in motor order (the description's), fingers in m, m/s, N.
     `X_NS` is the stance: midpoint and mean heading of the soles. Points in N [m]. `since_s` is when
     this controller took the motors over: another value, another controller, with an N of its own;
-    what it knows of the IMU goes over to that.
+    what it knows of the IMU goes over to that. `steps` are the landings that are planned, in order.
     """
 
     mode: Mode
@@ -221,6 +230,7 @@ class BodyState(Message, frozen=True, kw_only=True):
     failure: Failure | None = None
     since_s: float = 0.0
     imu: ImuBias | None = None
+    steps: tuple[Landing, ...] = ()
 
 
 class LoopTiming(Message, frozen=True, kw_only=True):
