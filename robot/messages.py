@@ -524,13 +524,17 @@ class ObjectInfo(msgspec.Struct, frozen=True, kw_only=True):
         return f"the {self.color} {self.plain_name}" if self.color else f"the {self.plain_name}"
 
 
+PERSON_RADIUS_M = 0.25
+"""Of somebody's outline, where nobody says otherwise [m]."""
+
+
 class PersonInfo(msgspec.Struct, frozen=True, kw_only=True):
     """A person as the world file gives them."""
 
     id: str
     name: str
     X_WO: SE3
-    radius_m: float = 0.25
+    radius_m: float = PERSON_RADIUS_M
 
 
 class WorldMap(Message, frozen=True, kw_only=True):

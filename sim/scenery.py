@@ -78,6 +78,7 @@ class _Reading:
     def scene(self) -> VisualScene:
         model, count = self._model, self._model.nbody
         base = int(model.body(self._robot.base_body).id)
+        foot = next(iter(self._robot.feet.values()))
         meshes = tuple(self._mesh(number) for number in range(model.nmesh))
         return VisualScene(
             bodies=tuple(self._body(number, base) for number in range(count)),
@@ -89,6 +90,7 @@ class _Reading:
             camera=self._camera(),
             lidar=self._site(self._robot.sensors.lidar.site),
             grasps={side: self._site(hand.grasp_site) for side, hand in self._robot.hands.items()},
+            sole_m=(foot.half_length_m, foot.half_width_m),
             motor_names=self._robot.motor_names,
             torque_limits_nm=tuple(one.torque_limit_nm for one in self._robot.motors.values()),
         )

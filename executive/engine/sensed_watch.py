@@ -37,8 +37,8 @@ TORQUE_S, SCAN_S, DEPTH_S, HEAT_S = 0.2, 0.5, 1.0, 2.0
 """How often each of them is written (design: what an eye follows, and a disk does not notice)."""
 SEEN_S = 0.7
 """Who was seen so lately is seen now: people are looked for less often than things."""
-COARSER = 2
-"""Of the depth image, each so many-th pixel is kept: enough to see what stands where."""
+MOST_WIDE = 80
+"""Pixels of a row of a depth image that are kept: enough to see what stands where."""
 LANDED_M = 0.01
 """What a planned landing shifts by without being news."""
 
@@ -112,7 +112,7 @@ class SensedWatch:
             line = msgspec.convert({"t_s": round(now_s, 3), **news}, Sensed)
             self._lines.append(sensed.encode(line))
         depth = self._link.depth()
-        if depth is not None and self._is_due("depth", DEPTH_S, now_s):
+        if depth is not None and depth.depth_m and self._is_due("depth", DEPTH_S, now_s):
             range_m = self._description.sensors.camera.range_m
             self._depths.append(shots.encode(_depth(depth, range_m=range_m)))
 
@@ -169,7 +169,7 @@ def _seen(tracks: Iterable[Track], now_s: float) -> list[str]:
 
 def _scan(scan: LidarScan) -> Scan:
     ranges_mm = np.rint(1000.0 * np.array(scan.ranges_m))
-    ranges_mm[~(ranges_mm < np.iinfo(np.uint16).max)] = 0
+    ranges_mm[~((ranges_mm > 0.0) & (ranges_mm < np.iinfo(np.uint16).max))] = 0
     return Scan(
         from_rad=round(scan.angle_min_rad, 5),
         step_rad=round(scan.angle_step_rad, 6),
@@ -179,12 +179,13 @@ def _scan(scan: LidarScan) -> Scan:
 
 def _depth(image: DepthImage, *, range_m: float) -> Shot:
     """The depth image in shades of grey: 0 is nothing, 255 what is as far as it sees."""
-    pixels = image.pixels()[::COARSER, ::COARSER]
+    coarser = -(-image.width // MOST_WIDE)
+    pixels = image.pixels()[::coarser, ::coarser]
     grey = np.where(pixels > 0.0, np.clip(np.rint(255.0 * pixels / range_m), 1, 255), 0)
     data = io.BytesIO()
     Image.fromarray(grey.astype(np.uint8)).save(data, "PNG", compress_level=3)
     height, width = grey.shape
-    focal_px = 0.5 * image.height / math.tan(0.5 * image.fovy_rad) / COARSER
+    focal_px = 0.5 * image.height / math.tan(0.5 * image.fovy_rad) / coarser
     return Shot(
         t_s=round(image.stamp_s, 3),
         kind="depth",
@@ -193,7 +194,7 @@ def _depth(image: DepthImage, *, range_m: float) -> Shot:
         width=width,
         height=height,
         focal_px=(focal_px, focal_px),
-        centre_px=(0.5 * (image.width - 1) / COARSER, 0.5 * (image.height - 1) / COARSER),
+        centre_px=(0.5 * (image.width - 1) / coarser, 0.5 * (image.height - 1) / coarser),
         range_m=range_m,
         source=image.source,
     )

@@ -87,9 +87,10 @@ class VisualScene(msgspec.Struct, frozen=True, kw_only=True):
     """All of it; parents come before what hangs on them.
 
     `camera` and `lidar` are where the robot senses, `grasps` the grasp frames of its hands, by
-    side. `motor_names` and `torque_limits_nm` are in motor order (fingers in N). `base` is the
-    place of the robot's base; `motors` is how many it has, and `posture` how they stand as it
-    begins. `bounds_m` is (least x, least y, largest x, largest y) of the world.
+    side; `sole_m` is half the length and half the width of a foot. `motor_names` and
+    `torque_limits_nm` are in motor order (fingers in N). `base` is the place of the robot's base;
+    `motors` is how many it has, and `posture` how they stand as it begins. `bounds_m` is (least x,
+    least y, largest x, largest y) of the world.
     """
 
     bodies: tuple[VisualBody, ...]
@@ -101,5 +102,6 @@ class VisualScene(msgspec.Struct, frozen=True, kw_only=True):
     camera: Camera
     lidar: Site
     grasps: dict[str, Site]
+    sole_m: tuple[float, float]
     motor_names: tuple[str, ...]
     torque_limits_nm: tuple[float, ...]

@@ -26,6 +26,7 @@ from websockets.http11 import Request, Response
 from executive.frontends.console.address import HOST, Address, url
 from executive.frontends.console.desk import Order
 from executive.frontends.console.door import TOKEN_S, Door
+from executive.frontends.console.faults import forms
 from executive.frontends.console.following import Following
 from executive.frontends.console.pace import Pace
 from executive.frontends.console.page import page
@@ -35,7 +36,9 @@ from executive.frontends.console.proof import CONSOLE, PAGE, fresh, holds, proof
 from executive.frontends.console.steering import Steering
 from executive.frontends.console.telling import told
 from executive.frontends.output import say
+from executive.skills.motions.personal_space import ZONE_M
 from robot.errors import RobotError
+from robot.messages import PERSON_RADIUS_M
 from robot.reality.visual_scene import VisualScene
 
 PERIOD_S = 0.05
@@ -319,7 +322,7 @@ class Viewer:
                 self._parts, self._live, self._steers, self._asks = {}, None, None, b""
                 self._words = show.steering.first if show else 0
                 name = show.following.folder.name if show else ""
-                begun = _json({"show": name})
+                begun = _json({"show": name, "zone_m": ZONE_M + PERSON_RADIUS_M, "faults": forms()})
                 await self._connection.send(begun, text=True)
             more = False
             if show is not None:
