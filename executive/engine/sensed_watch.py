@@ -5,8 +5,8 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Iterable
+from typing import Any
 
-import msgspec
 import numpy as np
 from PIL import Image
 
@@ -60,7 +60,7 @@ class SensedWatch:
         self._board, self._link, self._description = board, link, description
         self._lines, self._depths = lines, depths
         self._after_s = after_s
-        self._plans: dict[str, object] = {}
+        self._plans: dict[str, Any] = {}
         self._due_s: dict[str, float] = {}
         self._steps: tuple[tuple[int, float, float, float], ...] = ()
         self._sees: tuple[str, ...] | None = None
@@ -83,9 +83,10 @@ class SensedWatch:
                 self._plans["arm"] = ArmMotion(
                     side=result.side,
                     motors=tuple(self._description.indices(f"{result.side}_arm")),
-                    times_s=tuple(round(one, 3) for one in result.times_s),
+                    times_s=tuple(round(float(one), 3) for one in result.times_s),
                     positions=tuple(
-                        tuple(round(q, 3) for q in positions) for positions in result.positions_rad
+                        tuple(round(float(q), 3) for q in positions)
+                        for positions in result.positions_rad
                     ),
                 )
             case _:
@@ -102,15 +103,14 @@ class SensedWatch:
         self._has_reach = "reach" in news or (self._has_reach and "no_reach" not in news)
         news |= self._landings(body, world) | self._sights(world, now_s)
         if self._is_due("torque", TORQUE_S, now_s):
-            news["torque"] = tuple(round(one, 1) for one in body.tau_nm)
+            news["torque"] = tuple(round(float(one), 1) for one in body.tau_nm)
         if self._is_due("heat", HEAT_S, now_s):
-            news["heat"] = tuple(round(one, 1) for one in body.temperature_c)
+            news["heat"] = tuple(round(float(one), 1) for one in body.temperature_c)
         scan = self._link.lidar()
         if scan is not None and self._is_due("scan", SCAN_S, now_s):
             news["scan"] = _scan(scan)
         if news:
-            line = msgspec.convert({"t_s": round(now_s, 3), **news}, Sensed)
-            self._lines.append(sensed.encode(line))
+            self._lines.append(sensed.encode(Sensed(t_s=round(now_s, 3), **news)))
         depth = self._link.depth()
         if depth is not None and depth.depth_m and self._is_due("depth", DEPTH_S, now_s):
             range_m = self._description.sensors.camera.range_m
@@ -122,9 +122,9 @@ class SensedWatch:
         self._due_s[what] = now_s + period_s - 1e-6
         return True
 
-    def _end_plans(self, body: BodyState) -> dict[str, object]:
+    def _end_plans(self, body: BodyState) -> dict[str, Any]:
         """Plans that are over: a way once it was walked, a grasp once the hand has it."""
-        news: dict[str, object] = {}
+        news: dict[str, Any] = {}
         walks, held = body.mode == "walk", tuple(sorted(self._board.read(HELD).values()))
         idle = not self._board.read(GOAL)
         if self._has_way and (idle or (self._walked and not walks)):
@@ -134,7 +134,7 @@ class SensedWatch:
         self._walked, self._held = walks, held
         return news
 
-    def _landings(self, body: BodyState, world: WorldState) -> dict[str, object]:
+    def _landings(self, body: BodyState, world: WorldState) -> dict[str, Any]:
         steps = tuple(
             (
                 0 if one.side == "left" else 1,
@@ -151,7 +151,7 @@ class SensedWatch:
         self._steps = steps
         return {"steps": steps}
 
-    def _sights(self, world: WorldState, now_s: float) -> dict[str, object]:
+    def _sights(self, world: WorldState, now_s: float) -> dict[str, Any]:
         sees = tuple(_seen((*world.tracks, *world.people), now_s))
         if sees == self._sees:
             return {}
@@ -211,7 +211,8 @@ def _reach(kind: str, plan: PickPlan | PlacePlan, thing: str, hand: tuple[SE3, S
 
 
 def _planar(stance: Stance) -> Planar:
-    return (round(stance[0], 3), round(stance[1], 3), round(stance[2], 3))
+    x, y, yaw = (round(float(one), 3) for one in stance)
+    return (x, y, yaw)
 
 
 def _planar_of(X: SE3) -> Planar:

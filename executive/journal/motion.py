@@ -59,8 +59,8 @@ _DECODER = msgspec.json.Decoder(Moment)
 
 def flat(X: SE3) -> Flat:
     """A pose to the millimetre and the tenth of a milliradian."""
-    x, y, z = (round(one, 3) for one in X.p)
-    a, b, c, d = (round(one, 4) for one in X.quat_wxyz)
+    x, y, z = (round(float(one), 3) for one in X.p)
+    a, b, c, d = (round(float(one), 4) for one in X.quat_wxyz)
     return (x, y, z, a, b, c, d)
 
 

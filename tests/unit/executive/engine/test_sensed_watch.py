@@ -203,6 +203,26 @@ def test_a_motion_of_an_arm_names_its_motors():
     assert names == list(JUNO.groups["right_arm"]) and told.positions[-1] == (0.5,) * 7
 
 
+def test_numbers_of_numpy_are_written_as_numbers():
+    """Planners and sensors calculate with them; one that cannot be written would end a tick."""
+    watched = Watched()
+    odd = np.float64(0.5)
+    watched.watch.planned(TO, msgspec.structs.replace(WAY, waypoints=((odd, odd, odd),)))
+    arm = ArmPlan(side="left", times_s=(odd,), positions_rad=((odd,) * 7,), duration_s=0.5)
+    watched.watch.planned(
+        ArmRequest(side="left", q_start_rad=(), X_WB=SE3(), goal=(0.5,) * 7, around=AROUND), arm
+    )
+    hand = SE3((odd, odd, odd), (np.float64(1.0), odd * 0, odd * 0, odd * 0))
+    watched.watch.planned(
+        PickRequest(object_id="cup", around=AROUND, start=(0.0, 0.0, 0.0)),
+        msgspec.structs.replace(PICK, X_WG_grasp=hand, stance=(odd, odd, odd)),
+    )
+    watched.tick(0.0)
+    told = watched.lines[0]
+    assert told.way == ((0.5, 0.5, 0.5),) and told.arm is not None and told.reach is not None
+    assert told.reach.hand[1][:3] == (0.5, 0.5, 0.5)
+
+
 def test_a_plan_that_failed_is_no_plan():
     watched = Watched()
     watched.watch.planned(TO, failure("no_path", "there is none"))
