@@ -448,6 +448,14 @@ def test_motors_show_torque_and_temperature_of_the_time(browser, tmp_path):
                 ".scrollWidth - document.querySelector('#motors').clientWidth]"
             )
             assert wide[0] <= how.get("width", 1280) and wide[1] <= 0
+            page.click("#eye")  # and the camera's picture can be put away again
+            apart = page.eval(
+                "document.querySelector('#seen').getBoundingClientRect().right"
+                " - document.querySelector('#seen-close').getBoundingClientRect().right"
+            )
+            assert apart >= 0
+            page.click("#seen-close")
+            page.wait("document.querySelector('#seen').hidden")
             assert page.mistakes() == []
 
 
