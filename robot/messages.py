@@ -204,13 +204,22 @@ class MotorAlarm(msgspec.Struct, frozen=True):
     cure: str
 
 
+class Landing(msgspec.Struct, frozen=True, kw_only=True):
+    """Where a sole is to land: its middle and heading on the floor of N [m, rad]."""
+
+    side: Side
+    x_m: float
+    y_m: float
+    yaw_rad: float
+
+
 class BodyState(Message, frozen=True, kw_only=True):
     """The body as the controller believes it to be; estimated, not true.
 
     `q_rad`, `qd_rad_s`, `tau_nm` are in motor order (the description's), fingers in m, m/s, N.
     `X_NS` is the stance: midpoint and mean heading of the soles. Points in N [m]. `since_s` is when
     this controller took the motors over: another value, another controller, with an N of its own;
-    what it knows of the IMU goes over to that.
+    what it knows of the IMU goes over to that. `steps` are the landings that are planned, in order.
     """
 
     mode: Mode
@@ -237,6 +246,7 @@ class BodyState(Message, frozen=True, kw_only=True):
     failure: Failure | None = None
     since_s: float = 0.0
     imu: ImuBias | None = None
+    steps: tuple[Landing, ...] = ()
 
 
 class LoopTiming(Message, frozen=True, kw_only=True):
@@ -530,13 +540,17 @@ class ObjectInfo(msgspec.Struct, frozen=True, kw_only=True):
         return f"the {self.color} {self.plain_name}" if self.color else f"the {self.plain_name}"
 
 
+PERSON_RADIUS_M = 0.25
+"""Of somebody's outline, where nobody says otherwise [m]."""
+
+
 class PersonInfo(msgspec.Struct, frozen=True, kw_only=True):
     """A person as the world file gives them."""
 
     id: str
     name: str
     X_WO: SE3
-    radius_m: float = 0.25
+    radius_m: float = PERSON_RADIUS_M
 
 
 class WorldMap(Message, frozen=True, kw_only=True):

@@ -11,6 +11,7 @@ import numpy as np
 
 from robot.model.description import RobotDescription
 from robot.reality.visual_scene import (
+    Camera,
     Flat,
     Geom,
     Joint,
@@ -18,6 +19,7 @@ from robot.reality.visual_scene import (
     Mesh,
     Rgba,
     Role,
+    Site,
     VisualBody,
     VisualScene,
 )
@@ -76,6 +78,7 @@ class _Reading:
     def scene(self) -> VisualScene:
         model, count = self._model, self._model.nbody
         base = int(model.body(self._robot.base_body).id)
+        foot = next(iter(self._robot.feet.values()))
         meshes = tuple(self._mesh(number) for number in range(model.nmesh))
         return VisualScene(
             bodies=tuple(self._body(number, base) for number in range(count)),
@@ -84,6 +87,27 @@ class _Reading:
             motors=len(self._robot.motor_names),
             posture=self._robot.posture("nominal"),
             bounds_m=self._world.bounds_m,
+            camera=self._camera(),
+            lidar=self._site(self._robot.sensors.lidar.site),
+            grasps={side: self._site(hand.grasp_site) for side, hand in self._robot.hands.items()},
+            sole_m=(foot.half_length_m, foot.half_width_m),
+            motor_names=self._robot.motor_names,
+            torque_limits_nm=tuple(one.torque_limit_nm for one in self._robot.motors.values()),
+        )
+
+    def _site(self, name: str) -> Site:
+        site = self._model.site(name)
+        return Site(body=int(site.bodyid[0]), X_BS=_flat(site.pos, site.quat))
+
+    def _camera(self) -> Camera:
+        camera = self._robot.sensors.camera
+        site = self._site(camera.site)
+        return Camera(
+            body=site.body,
+            X_BS=site.X_BS,
+            fovy_rad=camera.fovy_rad,
+            width=camera.width,
+            height=camera.height,
         )
 
     def _body(self, number: int, base: int) -> VisualBody:

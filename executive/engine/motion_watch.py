@@ -8,10 +8,9 @@ from collections.abc import Iterable
 from executive.blackboard import BODY, HELD, WORLD, Blackboard
 from executive.journal import motion
 from executive.journal.files import Lines
-from executive.journal.motion import Flat, Moment
+from executive.journal.motion import Flat, Moment, flat
 from robot.link import BodyLink
 from robot.messages import Track
-from robot.se3 import SE3
 
 MOVED_M, TURNED = 0.001, 0.002
 """What the base or an object moves [m], and a joint or a quaternion changes, without being news."""
@@ -44,7 +43,7 @@ class MotionWatch:
         body, world = self._board.read(BODY), self._board.read(WORLD)
         if body is None or world is None or now_s <= self._after_s:
             return
-        base = _flat(world.X_WN @ body.X_NB)
+        base = flat(world.X_WN @ body.X_NB)
         q = tuple(round(one, 3) for one in body.q_rad)
         objects = _news(self._objects, world.tracks)
         people = _news(self._people, world.people)
@@ -76,7 +75,7 @@ def _news(before: Poses, tracks: Iterable[Track]) -> Poses:
     """The tracks that are elsewhere than before, or are not there any more."""
     news: Poses = {}
     for track in tracks:
-        pose = None if track.X_WO is None or track.missing else _flat(track.X_WO)
+        pose = None if track.X_WO is None or track.missing else flat(track.X_WO)
         if _differ(pose or (), before.get(track.id) or (), MOVED_M):
             news[track.id] = pose
     return news
@@ -86,10 +85,3 @@ def _differ(a: tuple[float, ...], b: tuple[float, ...], most: float) -> bool:
     if len(a) != len(b):
         return True
     return any(abs(one - other) > most for one, other in zip(a, b, strict=True))
-
-
-def _flat(X: SE3) -> Flat:
-    """A pose to the millimetre and the tenth of a milliradian."""
-    x, y, z = (round(one, 3) for one in X.p)
-    a, b, c, d = (round(one, 4) for one in X.quat_wxyz)
-    return (x, y, z, a, b, c, d)

@@ -7,7 +7,8 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from executive.frontends.output import say
-from executive.journal import journal, motion
+from executive.journal import journal, motion, sensed
+from robot import shots
 from robot.errors import ConfigError, Problem
 from robot.ordinary_files import make_below, write_ordinary
 
@@ -55,7 +56,10 @@ def _place(path: Path) -> tuple[int, int] | str:
 
 def records_of(folder: Path) -> list[Path]:
     """What a run's folder holds that cannot be made again."""
-    names = (journal.FILE, journal.WALL_FILE, motion.FILE, "run.json", "summary.json")
+    names = (
+        journal.FILE, journal.WALL_FILE, motion.FILE, sensed.FILE, shots.COLOUR_FILE,
+        shots.DEPTH_FILE, "run.json", "summary.json",
+    )  # fmt: skip
     return [folder / name for name in names]
 
 

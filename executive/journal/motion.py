@@ -16,6 +16,7 @@ from pathlib import Path
 import msgspec
 
 from robot.ordinary_files import open_ordinary
+from robot.se3 import SE3
 
 FILE = "motion.jsonl"
 MAX_LINE = 64_000
@@ -54,6 +55,13 @@ class Moment(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 
 
 _DECODER = msgspec.json.Decoder(Moment)
+
+
+def flat(X: SE3) -> Flat:
+    """A pose to the millimetre and the tenth of a milliradian."""
+    x, y, z = (round(float(one), 3) for one in X.p)
+    a, b, c, d = (round(float(one), 4) for one in X.quat_wxyz)
+    return (x, y, z, a, b, c, d)
 
 
 def encode(moment: Moment) -> bytes:

@@ -97,6 +97,11 @@ def names() -> list[str]:
     return sorted(_KINDS)
 
 
+def kind(name: str) -> type[faults.FaultRecord]:
+    """What the fault of a name takes. Raises KeyError if there is none."""
+    return _KINDS[name]
+
+
 def plan(data: Mapping[str, Any]) -> FaultPlan:
     """A fault with its trigger out of one flat mapping.
 

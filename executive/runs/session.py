@@ -25,7 +25,9 @@ from executive.engine.executive import Executive
 from executive.engine.jobs import UNLIMITED, Limits
 from executive.engine.motion_watch import MotionWatch
 from executive.engine.recorder import Recorder
-from executive.journal import motion
+from executive.engine.sensed_watch import SensedWatch
+from executive.engine.told_planner import ToldPlanner
+from executive.journal import motion, sensed
 from executive.journal.files import BackgroundFile, LineFile, Lines, Nowhere
 from executive.journal.journal import FILE as JOURNAL_FILE
 from executive.journal.journal import Journal
@@ -39,8 +41,10 @@ from executive.skills.resources import queued_for
 from executive.trees.build import build
 from executive.trees.parts import errands
 from intents.goals import to_builtins
+from robot import shots
 from robot.bus.topics import TOPICS
 from robot.closing import Closing
+from robot.planning.requests import PlanRequest, PlanResult
 
 MOST_MOMENTS_WAITING = 1200
 """Of lines of `motion.jsonl` for a disk that takes none: a minute."""
@@ -99,7 +103,9 @@ class Session(Closing):
         self.journal = journal or Journal(
             setup.folder, wall_s=time_of_day, background=live, first=first
         )
-        self._motion = _motion_file(setup, background=live)
+        self._motion = _lines(setup, motion.FILE, background=live)
+        self._sensed = _lines(setup, sensed.FILE, background=live)
+        self._depths = _lines(setup, shots.DEPTH_FILE, background=live)
         self._planner = SlowPlanner(robot.planner)
         self.faults = Injector(
             faults, robot.runtime, self.journal, begin_s=self.now_s, seed=setup.seed,
@@ -121,7 +127,7 @@ class Session(Closing):
         """
         context = SkillContext(
             link=self.runtime.link,
-            planner=self._planner,
+            planner=ToldPlanner(self._planner, self._hear_plan),
             description=self.setup.where.description,
             seed=self.setup.seed,
         )
@@ -133,6 +139,10 @@ class Session(Closing):
         self._recorder = Recorder(self.executive)
         after_s = motion.last_s(self.setup.folder) if self.setup.folder else -math.inf
         self._mover = MotionWatch(self.executive.board, context.link, self._motion, after_s=after_s)
+        self._watcher = SensedWatch(
+            self.executive.board, context.link, context.description,
+            lines=self._sensed, depths=self._depths, after_s=after_s,
+        )  # fmt: skip
 
     def begin(self, text: str) -> None:
         """Write what the run is started with into its folder, and as the journal's first event."""
@@ -194,15 +204,20 @@ class Session(Closing):
     def _tell(self) -> None:
         self._recorder.update()
         self._mover.update(self.now_s)
+        self._watcher.update(self.now_s)
         self.faults.tick(self.now_s)
         for listener in self._listeners:
             listener()
+
+    def _hear_plan(self, request: PlanRequest, result: PlanResult) -> None:
+        self._watcher.planned(request, result)
 
     def unwritten(self) -> tuple[str, ...]:
         """What the run's folder lacks because the disk did not take it, a line a file."""
         kept = (
             (JOURNAL_FILE, "what happened", self.journal.problem, self.journal.dropped),
             (motion.FILE, "how everything moved", self._motion.problem, self._motion.dropped),
+            (sensed.FILE, "what was sensed", self._sensed.problem, self._sensed.dropped),
         )
         return tuple(
             f"{file} ({what}) {f'is cut: {problem}' if problem else f'lacks {dropped} lines'}"
@@ -214,12 +229,14 @@ class Session(Closing):
         """Undo the faults that last, and close the journal."""
         self.faults.close()
         self._motion.close()
+        self._sensed.close()
+        self._depths.close()
         self.journal.close()
 
 
-def _motion_file(setup: Setup, *, background: bool) -> Lines:
-    """Where it is written how everything moves: beside the journal, if there is one."""
+def _lines(setup: Setup, name: str, *, background: bool) -> Lines:
+    """A file of lines beside the journal, if there is one."""
     if setup.folder is None:
         return Nowhere()
     kind = BackgroundFile if background else LineFile
-    return kind(setup.folder / motion.FILE, capacity=MOST_MOMENTS_WAITING)
+    return kind(setup.folder / name, capacity=MOST_MOMENTS_WAITING)

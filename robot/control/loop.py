@@ -40,6 +40,7 @@ from robot.messages import (
     HandState,
     HoldArm,
     ImuBias,
+    Landing,
     Look,
     Mode,
     MoveArm,
@@ -427,6 +428,14 @@ class ControlLoop:
             failure=self._failure,
             since_s=self._since_s,
             imu=self.estimator.imu_bias,
+            steps=self._steps(),
+        )
+
+    def _steps(self) -> tuple[Landing, ...]:
+        """Where the feet are to land; a body that lies or damps has no such plans."""
+        planned = self.legs.gait.landings if self.mode == "walk" else ()
+        return tuple(
+            Landing(side=side, x_m=sole.x, y_m=sole.y, yaw_rad=sole.yaw) for side, sole in planned
         )
 
     def _activities(self) -> dict[Channel, Activity]:

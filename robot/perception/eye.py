@@ -12,6 +12,7 @@ from robot.closing import Closing
 from robot.drivers.registry import RGBD
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
+from robot.perception.album import Album
 from robot.perception.camera_watch import CameraWatch
 
 SAY_S = 0.5
@@ -23,14 +24,19 @@ AGAIN_S = 2.0
 class Eye(Closing):
     """The camera at work; one that is not there ends nothing, and is looked for again."""
 
-    def __init__(self, wiring: Wiring) -> None:
+    def __init__(self, wiring: Wiring, *, album: Album | None = None) -> None:
         """Make the driver; nothing is opened.
+
+        Args:
+            wiring: for the driver.
+            album: where pictures are kept for people to look at; None: nowhere.
 
         Raises:
             ConfigError: if the description names a driver that there is not.
         """
         self._bus, self._clock = wiring.bus, wiring.clock
         self._source = RGBD.make(wiring)
+        self._album = album
         self._rate_hz = wiring.robot.sensors.camera.pictures().rate_hz
         self._watch = CameraWatch(rate_hz=self._rate_hz, start_s=self._clock.now_s())
         self._is_open = False
@@ -42,6 +48,8 @@ class Eye(Closing):
         now_s = self._clock.now_s()
         self._watch = CameraWatch(rate_hz=self._rate_hz, start_s=now_s)
         self._open(now_s)
+        if self._album is not None:
+            self._album.__enter__()
         return self
 
     def step(self) -> None:
@@ -58,6 +66,11 @@ class Eye(Closing):
 
     def close(self) -> None:
         """Let go of the camera."""
+        self._let_go()
+        if self._album is not None:
+            self._album.close()
+
+    def _let_go(self) -> None:
         if self._is_open:
             self._is_open = False
             self._source.close()
@@ -77,9 +90,11 @@ class Eye(Closing):
             return
         for image in came:
             self._watch.see(image, now_s)
+            if self._album is not None:
+                self._album.show(image)
             self._bus.publish(topics.RGBD, image)
 
     def _lose(self, error: DriverError, now_s: float) -> None:
-        self.close()
+        self._let_go()
         self._watch.lose(str(error))
         self._again_s = now_s + AGAIN_S

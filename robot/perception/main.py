@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 
 from robot.bus import run
 from robot.bus.lifeline import Stop, tie_to_parent
@@ -10,7 +11,9 @@ from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import WallClock
 from robot.drivers.wiring import Wiring
 from robot.model import description
+from robot.perception.album import Album
 from robot.perception.node import PerceptionNode
+from robot.shots import COLOUR_FILE
 
 PERIOD_S = 0.02
 
@@ -21,7 +24,9 @@ def main(run_file: str, parent_pid: str) -> None:
     config, clock = run.load(run_file), WallClock()
     robot = description.load(config.robot)
     with ZenohBus("perception", config.sockets) as bus:
-        node = PerceptionNode(Wiring(robot=robot, clock=clock, bus=bus), looks=config.pictures)
+        album = Album(Path(config.folder) / COLOUR_FILE)
+        wiring = Wiring(robot=robot, clock=clock, bus=bus)
+        node = PerceptionNode(wiring, looks=config.pictures, album=album)
         stop = Stop()
         with node:
             while not stop:

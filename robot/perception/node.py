@@ -28,6 +28,7 @@ from robot.messages import (
     WorldState,
 )
 from robot.model.body import BodyModel
+from robot.perception.album import Album
 from robot.perception.eye import Eye
 from robot.se3 import SE3
 
@@ -47,12 +48,13 @@ class PerceptionNode(Closing):
     head and base stood where it is believed that they stood. Time is the newest stamp.
     """
 
-    def __init__(self, wiring: Wiring, *, looks: bool = False) -> None:
+    def __init__(self, wiring: Wiring, *, looks: bool = False, album: Album | None = None) -> None:
         """Subscribe; compile the body for the poses of camera and lidar.
 
         Args:
             wiring: for the drivers.
             looks: whether pictures are to be looked at, though the camera is simulated.
+            album: where some of them are kept; None: nowhere.
 
         Raises:
             DescriptionError: if description and MJCF disagree.
@@ -61,7 +63,9 @@ class PerceptionNode(Closing):
         bus, description = wiring.bus, wiring.robot
         sensors = description.sensors
         self._senses = PublishedSensors(wiring, "perception")
-        self._eye = Eye(wiring) if looks or not RGBD.is_simulated(description) else None
+        self._eye = (
+            Eye(wiring, album=album) if looks or not RGBD.is_simulated(description) else None
+        )
         self._bus = bus
         self._states = bus.subscribe(topics.BODY_STATE)
         self._map = bus.subscribe(topics.ORACLE_MAP)

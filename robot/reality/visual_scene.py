@@ -68,11 +68,29 @@ class Mesh(msgspec.Struct, frozen=True, kw_only=True):
     faces: bytes
 
 
+class Site(msgspec.Struct, frozen=True, kw_only=True):
+    """A frame S that is fixed in a body: a place in `VisualScene.bodies`, and X_BS."""
+
+    body: int
+    X_BS: Flat
+
+
+class Camera(Site, frozen=True, kw_only=True):
+    """A camera, its frame as OpenCV has it (x right, y down, z forward), of square pixels."""
+
+    fovy_rad: float
+    width: int
+    height: int
+
+
 class VisualScene(msgspec.Struct, frozen=True, kw_only=True):
     """All of it; parents come before what hangs on them.
 
-    `base` is the place of the robot's base; `motors` is how many it has, and `posture` how they
-    stand as it begins. `bounds_m` is (least x, least y, largest x, largest y) of the world.
+    `camera` and `lidar` are where the robot senses, `grasps` the grasp frames of its hands, by
+    side; `sole_m` is half the length and half the width of a foot. `motor_names` and
+    `torque_limits_nm` are in motor order (fingers in N). `base` is the place of the robot's base;
+    `motors` is how many it has, and `posture` how they stand as it begins. `bounds_m` is (least x,
+    least y, largest x, largest y) of the world.
     """
 
     bodies: tuple[VisualBody, ...]
@@ -81,3 +99,9 @@ class VisualScene(msgspec.Struct, frozen=True, kw_only=True):
     motors: int
     posture: tuple[float, ...]
     bounds_m: tuple[float, float, float, float]
+    camera: Camera
+    lidar: Site
+    grasps: dict[str, Site]
+    sole_m: tuple[float, float]
+    motor_names: tuple[str, ...]
+    torque_limits_nm: tuple[float, ...]

@@ -11,9 +11,11 @@ import os
 from pathlib import Path
 from typing import BinaryIO
 
-from executive.journal import journal, motion
+from executive.frontends.console.pictures import Pictures
+from executive.journal import journal, motion, sensed
 from executive.journal.reader import Reader
 from executive.journal.run import Run
+from robot import shots
 from robot.ordinary_files import open_ordinary
 
 CHUNK = 1 << 20
@@ -73,6 +75,8 @@ class Following:
         folder: of the run.
         moments: how everything moved, each as the JSON that the page is given.
         last_s: the time of the last of them.
+        sensed: what was sensed and planned, in the same way.
+        pictures: what the camera saw, by kind.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -80,11 +84,18 @@ class Following:
         self.folder = folder
         self.moments: list[bytes] = []
         self.last_s = -math.inf
+        self.sensed: list[bytes] = []
+        self.pictures = {
+            "colour": Pictures(folder / shots.COLOUR_FILE),
+            "depth": Pictures(folder / shots.DEPTH_FILE),
+        }
+        self._sensed_s = -math.inf
         self._reader = Reader()
         self._events = Tail(
             folder / journal.FILE, longest=journal.MAX_LINE, most=journal.MOST_BYTES
         )
         self._motion = Tail(folder / motion.FILE, longest=motion.MAX_LINE, most=motion.MOST_BYTES)
+        self._senses = Tail(folder / sensed.FILE, longest=sensed.MAX_LINE, most=sensed.MOST_BYTES)
 
     @property
     def run(self) -> Run:
@@ -98,12 +109,15 @@ class Following:
 
     def read(self) -> bool:
         """Take what has come since; whether there may be more at once."""
-        events, moves = self._events.lines(), self._motion.lines()
+        events, moves, senses = self._events.lines(), self._motion.lines(), self._senses.lines()
         for line in events:
             self._reader.line(line + b"\n")
         for line in moves:
             self._move(line)
-        return bool(events or moves)
+        for line in senses:
+            self._sense(line)
+        seen = [one.read() for one in self.pictures.values()]
+        return bool(events or moves or senses) or any(seen)
 
     def _move(self, line: bytes) -> None:
         moment = motion.decode(line)
@@ -112,7 +126,14 @@ class Following:
             self.last_s = moment.t_s
             self.moments.append(line)
 
+    def _sense(self, line: bytes) -> None:
+        one = sensed.decode(line)
+        if one is None or one.t_s <= self._sensed_s or len(self.sensed) >= sensed.MOST_LINES:
+            return
+        self._sensed_s = one.t_s
+        self.sensed.append(line)
+
     def close(self) -> None:
         """Close the files."""
-        self._events.close()
-        self._motion.close()
+        for one in (self._events, self._motion, self._senses, *self.pictures.values()):
+            one.close()

@@ -26,15 +26,19 @@ from websockets.http11 import Request, Response
 from executive.frontends.console.address import HOST, Address, url
 from executive.frontends.console.desk import Order
 from executive.frontends.console.door import TOKEN_S, Door
+from executive.frontends.console.faults import forms
 from executive.frontends.console.following import Following
 from executive.frontends.console.pace import Pace
 from executive.frontends.console.page import page
 from executive.frontends.console.peer import Peers
+from executive.frontends.console.pictures import Place
 from executive.frontends.console.proof import CONSOLE, PAGE, fresh, holds, proof
 from executive.frontends.console.steering import Steering
 from executive.frontends.console.telling import told
 from executive.frontends.output import say
+from executive.skills.motions.personal_space import ZONE_M
 from robot.errors import RobotError
+from robot.messages import PERSON_RADIUS_M
 from robot.reality.visual_scene import VisualScene
 
 PERIOD_S = 0.05
@@ -45,6 +49,8 @@ LOOK_SHARE = 0.1
 """Of the time, what looking back for one page may take: others wait for it."""
 BATCH = 1000
 """Moments of a message, of the many of a run that has gone on for a while."""
+BATCH_SENSED = 300
+"""Lines of what was sensed, of 300 bytes each."""
 MOST_PAGES = 16
 MAX_MESSAGE = 1 << 16
 NOBODY = "Nobody takes orders from this page: no robot is at work here."
@@ -57,11 +63,15 @@ MakeScene = Callable[[Mapping[str, Any]], VisualScene | str]
 
 
 class Wish(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What a page sends: its `proof` first (proof.py), then when it looks at, or an `Order`."""
+    """What a page sends: its `proof` first (proof.py), then when it looks at, or an `Order`.
+
+    `pictures` are the kinds of pictures that it shows now, of that time.
+    """
 
     proof: str = ""
     nonce: str = ""
     at: float | None = None
+    pictures: tuple[str, ...] | None = None
     line: str = ""
     do: str = ""
 
@@ -253,7 +263,7 @@ class PageServer:
             if wish is None:
                 continue
             if not (wish.do or wish.line):
-                viewer.looks_at_s = wish.at
+                viewer.wishes(wish)
                 continue
             order = Order(do=wish.do, line=wish.line)
             if not pace.heeds(order, asyncio.get_running_loop().time()):
@@ -274,6 +284,10 @@ class Viewer:
         """Nothing yet."""
         self.looks_at_s: float | None = None
         self._looks_again_s = 0.0
+        self._at_s: float | None = None
+        self._wanted: tuple[str, ...] = ()
+        self._shown: dict[str, Place] = {}
+        self._sensed = 0
         self._console = console
         self._connection = connection
         self._show: Show | None = None
@@ -286,6 +300,15 @@ class Viewer:
         self._asks = b""
         self._words = 0
 
+    def wishes(self, wish: Wish) -> None:
+        """Take what the page wants to look at."""
+        self._at_s = wish.at
+        if wish.pictures is not None:
+            self._wanted = wish.pictures
+            self._shown = {}
+        else:
+            self.looks_at_s = wish.at
+
     async def tell(self) -> None:
         """Tell what is new, for ever; each message waits until the page has taken the last."""
         loop = asyncio.get_running_loop()
@@ -294,11 +317,12 @@ class Viewer:
             show = self._console.show
             if show is not self._show or not self._greeted:
                 self._greeted = True
-                self._show, self._scene, self._moments = show, False, 0
+                self._show, self._scene, self._moments, self._sensed = show, False, 0, 0
+                self._shown = {}
                 self._parts, self._live, self._steers, self._asks = {}, None, None, b""
                 self._words = show.steering.first if show else 0
                 name = show.following.folder.name if show else ""
-                begun = _json({"show": name})
+                begun = _json({"show": name, "zone_m": ZONE_M + PERSON_RADIUS_M, "faults": forms()})
                 await self._connection.send(begun, text=True)
             more = False
             if show is not None:
@@ -313,7 +337,12 @@ class Viewer:
                     took_s = loop.time() - begun_s
                     self._looks_again_s = begun_s + took_s / LOOK_SHARE
                     await self._connection.send(then, text=True)
-                more = self._scene and self._moments < len(show.following.moments)
+                for shot in self._pictures(show):
+                    await self._connection.send(shot, text=True)
+                more = self._scene and (
+                    self._moments < len(show.following.moments)
+                    or self._sensed < len(show.following.sensed)
+                )
             if not more:
                 await asyncio.sleep(max(0.0, begun_s + PERIOD_S - loop.time()))
 
@@ -330,6 +359,11 @@ class Viewer:
             batch = moments[self._moments : self._moments + BATCH]
             self._moments += len(batch)
             news.append(b'"moments":[' + b",".join(batch) + b"]")
+        sensed = show.following.sensed
+        if self._scene and self._sensed < len(sensed):
+            batch = sensed[self._sensed : self._sensed + BATCH_SENSED]
+            self._sensed += len(batch)
+            news.append(b'"sensed":[' + b",".join(batch) + b"]")
         for key, part in show.parts.items():
             if self._parts.get(key) != part:
                 self._parts[key] = part
@@ -346,6 +380,19 @@ class Viewer:
             self._asks = steering.asks
             news.append(b'"asks":' + steering.asks)
         return b"{" + b",".join(news) + b"}" if news else b""
+
+    def _pictures(self, show: Show) -> list[bytes]:
+        """The pictures that the page wants and has not got: of each kind the newest alone."""
+        found: list[bytes] = []
+        for kind, pictures in show.following.pictures.items():
+            place = pictures.at(self._at_s) if kind in self._wanted else None
+            if place is None or self._shown.get(kind) == place:
+                continue
+            self._shown[kind] = place
+            line = pictures.line(place)
+            if line:
+                found.append(b'{"shot":' + line + b"}")
+        return found
 
     def _said(self, steering: Steering) -> list[bytes]:
         """What was said since this page was told; of much, the newest."""

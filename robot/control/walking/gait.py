@@ -99,6 +99,14 @@ class Gait:
             and not self._wants_step()
         )
 
+    @property
+    def landings(self) -> tuple[tuple[Side, Sole], ...]:
+        """The landings that are planned, in order, each with its foot."""
+        swing = other(self.support)
+        return tuple(
+            (swing if k % 2 == 0 else self.support, sole) for k, sole in enumerate(self._landings)
+        )
+
     def hangs(self) -> int | None:
         """The foot that is surely in the air, 0 (left) or 1: in the middle of its step."""
         if self.phase != "single":

@@ -34,6 +34,17 @@ function jointMatrix(joint, value) {
   return m;
 }
 
+// Of a frame's matrix, the one that goes back.
+function inverse(m) {
+  const out = new Float32Array(16);
+  for (let row = 0; row < 3; row++) {
+    for (let column = 0; column < 3; column++) out[4 * column + row] = m[4 * row + column];
+    out[12 + row] = -(m[4 * row] * m[12] + m[4 * row + 1] * m[13] + m[4 * row + 2] * m[14]);
+  }
+  out[15] = 1;
+  return out;
+}
+
 function between(a, b, part) {
   const pose = a.map((one, index) => one + (b[index] - one) * part);
   const same = a[3] * b[3] + a[4] * b[4] + a[5] * b[5] + a[6] * b[6] >= 0;

@@ -56,6 +56,7 @@ function showTalk(lines) {
   });
   talk.replaceChildren(...items);
   toNewest();
+  motors.draw();
 }
 
 function facts(pairs) {
@@ -127,4 +128,5 @@ function showTab(name) {
   for (const pane of document.querySelectorAll("#right > .pane")) pane.hidden = pane.dataset.tab !== (name === "tree" ? "small" : name);
   for (const tab of document.querySelectorAll("#tabs button")) tab.setAttribute("aria-selected", tab.dataset.show === name);
   toNewest();
+  motors.draw();
 }

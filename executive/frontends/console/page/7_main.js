@@ -1,15 +1,16 @@
 // Puts it together: what comes from the server, what a person does, and a picture when one of them is new.
 
-const motion = new Motion();
+const motion = new Motion(), sensing = new Sensing();
 const parts = { head: {}, tree: [], said: [], health: [], jobs: [], troubles: [] };
 const page = {
   scene: null, resting: [], live: null, steers: false, linked: false, now: true, t: 0, playing: false, dirty: true,
   follow: true, names: true, answers: [], then: null, asks: null, drawn: 0, framesMs: [], problem: "", shown: "", over: false,
+  zone_m: 0,
 };
 const camera = { at: [0, 0, 0.7], distance: 4.5, heading: -2.2, down: 0.42, fovy: 0.75, eye: [0, 0, 0] };
 let drawing = null, link = null, trail = 0;
 
-try { drawing = new Drawing($("view")); } catch (error) { page.problem = error.message; }
+try { drawing = new Drawing($("view")); plans.marks = new Marks(drawing); } catch (error) { page.problem = error.message; }
 
 // --- what comes ---
 
@@ -19,6 +20,9 @@ function taken(news) {
   if (news.scene) haveScene(news.scene);
   if (news.latest) { motion.latest = { base: news.latest.base, q: news.latest.q }; page.dirty = true; }
   for (const moment of news.moments || []) motion.add(moment);
+  for (const line of news.sensed || []) sensing.add(line);
+  if (news.sensed) { page.dirty = true; panels.soon("sensed"); }
+  if (news.shot) camera_.have(news.shot);
   if (news.moments) { page.dirty = true; page.told = performance.now(); }
   if (news.live !== undefined) { page.over = page.live === true && !news.live; page.live = news.live; page.dirty = true; panels.all(); }
   for (const key of Object.keys(parts)) if (key in news) { parts[key] = news[key]; panels.soon(key); }
@@ -30,9 +34,16 @@ function taken(news) {
 
 function begin(news) {
   motion.clear();
+  sensing.clear();
+  camera_.clear();
+  if (plans.marks) plans.marks.clear();
+  Object.assign(plans, { lidarOf: null, armOf: null });
+  page.zone_m = news.zone_m || 0;
+  faults.forms = news.faults || [];
   Object.assign(page, { scene: null, live: null, now: true, then: null, shown: news.show, asks: null, over: false, playing: false, answers: [] });
   Object.assign(parts, { head: {}, tree: [], said: [], health: [], jobs: [], troubles: [] });
   trail = 0;
+  camera_.ask();
   if (drawing) { drawing.things = []; drawing.way([]); }
   $("nothing").hidden = false;
   $("nothing").textContent = page.problem || (news.show ? "Making the picture ..." : "Waiting for a robot: start one with `humanoid` in another terminal.");
@@ -45,6 +56,8 @@ function haveScene(scene) {
   page.scene = scene;
   page.resting = scene.bodies.map((body) => matrixOf(body.X_PB));
   drawing.show(scene);
+  faults.build();
+  motors.rows = [];
   const base = scene.bodies[scene.base].X_PB;
   camera.at = [base[0], base[1], 0.75];
   const narrow = $("view").clientWidth < 600;
@@ -62,6 +75,7 @@ function goTo(t) {
   page.now = page.live && page.t >= motion.end - 0.06 && !page.playing;
   page.dirty = true;
   if (page.now) { page.then = null; link.send({ at: null }); } else askThen();
+  if (plans.marks) plans.marks.set("cloud", []); // of another time
   panels.all();
 }
 
@@ -100,6 +114,7 @@ const panels = {
     if (keys.has("tree")) showTree(told.tree);
     if (keys.has("said")) showTalk([...told.said, ...page.answers.filter(([t]) => page.now || t <= when())]);
     if (keys.has("health") || keys.has("troubles") || keys.has("head")) showHealth(told.health, told.troubles, told.head, motion, motion.at(when()));
+    if (keys.has("sensed") || keys.has("time")) motors.draw();
     if (keys.has("jobs")) showJobs(told.jobs);
     this.head(told);
     this.time();
@@ -139,7 +154,8 @@ const panels = {
     const on = page.steers && page.linked && page.live;
     document.body.classList.toggle("steers", Boolean(page.steers && page.live));
     $("stop").hidden = !(page.steers && page.live);
-    for (const id of ["order", "steer"]) $(id).hidden = !on;
+    for (const id of ["order", "steer", "tab-faults"]) $(id).hidden = !on;
+    if (!on && !$("faults").hidden) showTab("talk");
     const latched = parts.health.some(([, name]) => name === ESTOP);
     for (const button of document.querySelectorAll("[data-do=release], [data-do=reset]")) button.hidden = !latched;
   },
@@ -264,6 +280,7 @@ function frame(ms) {
     page.dirty = true;
     askThen();
     panels.time();
+    panels.soon("sensed");
   }
   if (page.now && page.live && page.head !== motion.end) { // a tenth behind, so that it moves evenly
     page.head = page.head === undefined || Math.abs(motion.end - page.head) > 1 ? motion.end : page.head + (motion.end - page.head) * Math.min(1, 9 * dt);
@@ -296,7 +313,9 @@ function picture(ms) {
   const sky = getComputedStyle(document.documentElement).getPropertyValue("--sky").trim();
   const haze = [1, 3, 5].map((k) => parseInt(sky.slice(k, k + 2), 16) / 255);
   drawTrail(t);
-  const view = drawing.draw(matrices, camera, haze, glows);
+  const ghost = plans.update(t, matrices);
+  const view = drawing.draw(matrices, camera, haze, glows, ghost);
+  plans.marks.draw(view, camera.fovy);
   drawLabels(view, matrices, t);
   pace(ms);
   page.drawn += 1;
@@ -356,6 +375,19 @@ $("all").onclick = () => {
   Object.assign(camera, { at: [(x0 + x1) / 2, (y0 + y1) / 2, 0.3], down: 0.85, distance: 1.25 * Math.max(x1 - x0, y1 - y0, 4) / wide });
   page.dirty = true;
 };
+for (const box of document.querySelectorAll("#layers input")) box.onchange = () => {
+  SHOWS[box.dataset.layer] = box.checked;
+  plans.lidarOf = null;
+  page.dirty = true;
+  if (box.dataset.layer === "cloud") camera_.ask();
+};
+const look_ = (shown) => { camera_.shown = shown; $("eye").setAttribute("aria-pressed", shown); camera_.ask(); camera_.draw(); };
+$("eye").onclick = () => look_(!camera_.shown);
+$("seen-close").onclick = () => look_(false);
+for (const kind of ["colour", "depth"]) $(`seen-${kind}`).onclick = () => { camera_.kind = kind; camera_.ask(); camera_.draw(); };
+$("seen-large").onclick = () => $("seen").classList.toggle("large");
+$("fault-kind").onchange = () => faults.form();
+$("fault-form").onsubmit = (event) => { event.preventDefault(); faults.send(); };
 for (const tab of document.querySelectorAll("#tabs button")) tab.onclick = () => showTab(tab.dataset.show);
 
 document.addEventListener("keydown", (event) => {
@@ -364,7 +396,7 @@ document.addEventListener("keydown", (event) => {
   if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
   const does = {
     " ": () => play(!page.playing), f: () => $("follow").click(), o: () => $("all").click(), t: () => $("above").click(),
-    n: () => $("names").click(), End: () => $("now").click(), ",": () => goTo(when() - 0.05), ".": () => goTo(when() + 0.05),
+    n: () => $("names").click(), c: () => $("eye").click(), End: () => $("now").click(), ",": () => goTo(when() - 0.05), ".": () => goTo(when() + 0.05),
     "/": () => $("line").focus(),
   }[event.key];
   if (does && !(event.key === " " && event.target.tagName === "BUTTON")) { event.preventDefault(); does(); }

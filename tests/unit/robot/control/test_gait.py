@@ -4,6 +4,7 @@ The pendulum is xidot = omega (xi - zmp) with the ZMP that the gait commands; a 
 where its reference is and bears weight as soon as it is down.
 """
 
+import itertools
 import math
 
 import numpy as np
@@ -208,3 +209,25 @@ def test_a_foot_that_slides_on_as_it_lands_carries_the_robot_where_it_ends(pendu
     pendulum.run(3.0)
     assert gait.steps_taken == 1
     assert gait.phase == "stand"
+
+
+def test_the_landings_that_are_planned_are_where_the_feet_land(juno):
+    """The first of them is of the foot in the air, or that goes into the air next."""
+    pendulum = Pendulum(juno)
+    gait, landed = pendulum.gait, []
+    while len(landed) < 8:
+        before, taken = gait.landings, gait.steps_taken
+        pendulum.run(DT_S, wish=lambda _: Twist(0.3, 0.0, 0.0))
+        if gait.phase != "stand":
+            assert gait.landings and gait.landings[0][0] != gait.support
+        if gait.steps_taken > taken:
+            side, sole = before[0]
+            assert math.dist(_xy(gait.planted[side]), _xy(sole)) < 0.01
+            landed.append(side)
+    assert all(side != after for side, after in itertools.pairwise(landed))
+    pendulum.run(6.0, wish=lambda _: Twist())
+    assert gait.phase == "stand" and gait.landings == ()
+
+
+def _xy(sole: Sole) -> tuple[float, float]:
+    return sole.x, sole.y

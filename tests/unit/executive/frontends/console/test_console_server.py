@@ -12,16 +12,21 @@ from pathlib import Path
 import msgspec
 import pytest
 from websockets.asyncio.client import connect
+from websockets.asyncio.server import Server
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
+from executive.frontends.console import server
 from executive.frontends.console.address import HOST
 from executive.frontends.console.door import MOST_OTHERS, MOST_OWN
-from executive.frontends.console.pace import BURST
+from executive.frontends.console.pace import BURST, Pace
 from executive.frontends.console.page import page
 from executive.frontends.console.proof import CONSOLE, PAGE, proof
 from executive.frontends.console.server import BATCH, MOST_PAGES, NOBODY, TOO_MUCH, PageServer
-from executive.journal import journal, motion
+from executive.journal import journal, motion, sensed
 from executive.journal.motion import Moment
+from executive.journal.sensed import Sensed
+from robot import shots
+from robot.shots import Shot
 from tests.fakes.waiting import HANG_S
 
 NONCE = "0123456789abcdef"
@@ -37,17 +42,34 @@ def a_run(folder: Path, *, moments: int = 3, text: str = "wave") -> Path:
     return folder
 
 
+SERVERS: dict[PageServer, Server] = {}
+"""What serves each console that is served now."""
+
+
 @asynccontextmanager
 async def served(find, **how):
     """A console that is served, and followed."""
     console = PageServer(find, lambda about: f"no picture of {about.get('world')}", **how)
-    server = await console.open(socket.create_server((HOST, 0)))
+    serving = await console.open(socket.create_server((HOST, 0)))
     following = asyncio.create_task(console.follow())
+    SERVERS[console] = serving
     try:
         yield console
     finally:
         following.cancel()
-        server.close()
+        serving.close()
+        del SERVERS[console]
+
+
+def pictures(folder: Path, count: int, *, size: int = 10, begin: int = 0) -> None:
+    """Add pictures to a run, one a second."""
+    with (folder / shots.COLOUR_FILE).open("ab") as file:
+        for k in range(begin, begin + count):
+            shot = Shot(
+                t_s=k + 1.0, kind="colour", type="jpeg", data=bytes(size), width=4, height=3,
+                focal_px=(2.0, 2.0), centre_px=(1.5, 1.0),
+            )  # fmt: skip
+            file.write(shots.encode(shot) + b"\n")
 
 
 class Visitor:
@@ -295,7 +317,8 @@ def test_files_that_are_short_are_told_of_once(tmp_path, capsys):
     assert capsys.readouterr().err.count("\n") == 1
 
 
-def test_a_page_that_sends_too_much_is_told_so_once_and_is_shown_the_newest(tmp_path):
+def test_a_page_that_sends_too_much_is_told_so_once_and_is_shown_the_newest(tmp_path, monkeypatch):
+    monkeypatch.setattr(server, "Pace", lambda: Pace(per_s=0.0))  # however long the sending takes
     run = a_run(tmp_path / "run", moments=20)
 
     async def visited():
@@ -311,7 +334,74 @@ def test_a_page_that_sends_too_much_is_told_so_once_and_is_shown_the_newest(tmp_
                     news = json.loads(await page.socket.recv())
                     words += [news["word"]["out"]] if "word" in news else []
                     looks += [news["then"]["t_s"]] if "then" in news else []
-            assert words == [NOBODY] * BURST + [TOO_MUCH] + [NOBODY] * (len(words) - BURST - 1)
+            assert words == [NOBODY] * BURST + [TOO_MUCH]
             assert looks == sorted(looks)
+
+    asyncio.run(visited())
+
+
+def test_what_is_sensed_is_told_all_and_pictures_to_who_wants_them(tmp_path):
+    run = a_run(tmp_path / "run")
+    lines = [sensed.encode(Sensed(t_s=0.2 * k, torque=(1.0,))) + b"\n" for k in range(1, 1000)]
+    (run / sensed.FILE).write_bytes(b"".join(lines))
+    pictures(run, 5)
+
+    async def visited():
+        async with served(lambda: run) as console, Visitor(console) as page:
+            times: list[float] = []
+            shown: list[float] = []
+
+            async def told(until):
+                async with asyncio.timeout(HANG_S):
+                    while not until():
+                        news = json.loads(await page.socket.recv())
+                        times.extend(one["t_s"] for one in news.get("sensed", []))
+                        shown.extend([news["shot"]["t_s"]] if "shot" in news else [])
+
+            await told(lambda: len(times) == 999)
+            assert times == sorted(times) and shown == []  # nobody has asked for a picture
+            await page.say(pictures=["colour", "nonsense"])
+            await told(lambda: shown == [5.0])
+            await page.say(at=2.7)  # somebody looks back: the picture of that time
+            await told(lambda: shown == [5.0, 2.0])
+            await page.say(pictures=[])
+            await page.say(at=4.0)
+            await page.say(pictures=["colour"], at=4.5)
+            await told(lambda: shown == [5.0, 2.0, 4.0])
+
+    asyncio.run(visited())
+
+
+def test_a_page_that_does_not_read_costs_bounded_memory_and_skips_pictures(tmp_path):
+    """Counted: what waits for a page that stands still, and what it is told once it goes on."""
+    run, count, size = a_run(tmp_path / "run"), 200, 100_000
+
+    async def visited():
+        async with (
+            served(lambda: run) as console,
+            Visitor(console) as slow,
+            Visitor(console) as good,
+        ):
+            await slow.say(pictures=["colour"])
+            await good.until("head", count=3)
+            with (run / motion.FILE).open("ab") as file:
+                for k in range(count):  # a robot at work, that waits for nobody
+                    pictures(run, 1, size=size, begin=k)
+                    file.write(motion.encode(Moment(t_s=1.0 + k, base=BASE, q=(0.2,))) + b"\n")
+                    file.flush()
+                    await asyncio.sleep(0.01)
+            await good.until(count=3 + count)  # was told all, with the slow one beside it
+            waiting = [
+                one.transport.get_write_buffer_size() for one in SERVERS[console].connections
+            ]
+            assert max(waiting) < 5 * size * 4 / 3
+            seen: list[float] = []
+            async with asyncio.timeout(HANG_S):
+                while not seen or seen[-1] != count:
+                    news = json.loads(await slow.socket.recv())
+                    seen += [news["shot"]["t_s"]] if "shot" in news else []
+                    slow.moments += news.get("moments", [])
+            assert len(seen) < count / 2 and seen == sorted(seen)
+            await slow.until(count=3 + count)  # how all moved is left out for nobody
 
     asyncio.run(visited())
