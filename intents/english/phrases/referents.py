@@ -292,10 +292,9 @@ def to_place(
         raise Unclear(
             "I know that place only by what is there. What is it called?", (), phrase.where
         )
-    if phrase.noun == "pronoun" and (opened := _opened(scope)):
-        return opened
     if phrase.noun in ("there", "pronoun"):
-        found = scope.place or (scope.device if phrase.noun == "pronoun" else None)
+        opened = _opened(scope) if phrase.noun == "pronoun" else ""
+        found = opened or scope.place or (scope.device if phrase.noun == "pronoun" else None)
         if found is None:
             raise Unclear("Where is that?")
         return found
