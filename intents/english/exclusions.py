@@ -18,6 +18,39 @@ _NOT = lexicon.phrases(
     "any but,all but,but for"
 )
 _BUT = ("but",)
+_LINKS = ("but", "and", "only", "though")
+
+
+_STAYS = lexicon.phrases(
+    "stays,stay,remains,remain,can stay,may stay,should stay,must stay,is to stay,are to stay,"
+    "has to stay,have to stay,is staying,are staying,should remain,is to remain"
+)
+_KEEPS = lexicon.phrases("keep,leave,please keep,please leave,do leave,do keep,you can leave")
+_THERE = lexicon.phrases(
+    "put,here,there,behind,out,alone,be,where it is,where they are,as it is,as they are,"
+    "out of it,right there,right here,out of there,in its place"
+)
+
+
+def kept_out(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
+    """Put the toys in the box, but *the ball stays*, or *keep the ball out*: all but the ball."""
+    text = sentence.text
+    if not any(map(_is_of_all, last)) or text.word(at - 1) not in (COMMA, FULL_STOP, *_LINKS):
+        return None
+    kept = text.phrase_end(_KEEPS, at)
+    phrase = noun_phrase(text, kept or at)
+    about = next((query for goal in last if (query := _about(goal))), None)
+    if phrase is None or about is None or phrase.noun not in ("name", "one") or phrase.is_person:
+        return None
+    end = phrase.end if kept else text.phrase_end(_STAYS, phrase.end)
+    there = text.phrase_end(_THERE, end) if end else None
+    end = there or end
+    if end is None or phrase.places or (kept and not there and text.word(at - 1) not in _BUT):
+        return None
+    if not (end >= len(text) or text.word(end) in (COMMA, FULL_STOP)):
+        return None
+    without = _narrowed(about, to_object(phrase, sentence.scope), phrase, sentence.scope)
+    return [substitute(goal, about, without) for goal in last], end
 
 
 def excluded(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:

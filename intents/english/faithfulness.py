@@ -54,6 +54,8 @@ _WAYS = lexicon.words(
     "backward backwards rearwards sideways upside diagonally kneel kneeling crawl jump hop tiptoe"
 )
 """How something is to be done, for which no goal has a slot but a walk by some distance."""
+_LOCKS = lexicon.words("lock locks locked locking unlock unlocked")
+"""What is taken for closing and opening, and is more than that."""
 _POSES = lexicon.words("kneel kneeling")
 """What is taken for a squat, and is none."""
 _PARTS = lexicon.words("foot yard")
@@ -63,7 +65,7 @@ _BOARDS = lexicon.words("top upper bottom lower middle topmost uppermost")
 CARRYING = (
     frozenset(lexicon.COLORS) | frozenset(lexicon.SIZES) | _SUPERLATIVE_WORDS | NUMBER_WORDS
     | frozenset(lexicon.COMPARATIVES) | lexicon.EMPTY_ADJECTIVES | _QUANTIFIERS | _LIMBS | _WAYS
-    | _ORDINALS | _BOARDS | lexicon.CLOTHES
+    | _ORDINALS | _BOARDS | lexicon.CLOTHES | _LOCKS
 ) - lexicon.words("left right finest light other same the to short long one")  # fmt: skip
 """Words of closed classes that say something by themselves: what, how many, which, in what way."""
 _OTHERS = lexicon.words(
@@ -117,6 +119,7 @@ class _Told:
         plain = " ".join(self.values).replace("_", " ").replace("-", " ").split()
         self.words = {*plain, *map(singular, plain)}
         self.speaks = any(isinstance(goal, _SPEAKS) for goal in goals)
+        self.answers = any(isinstance(goal, Answer) for goal in goals)
         self.walks_by = any(isinstance(goal, GoTo) and goal.by for goal in goals)
 
     def name(self, *names: str) -> bool:
@@ -152,7 +155,7 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
     if word in lexicon.BOARDS and at and _is_told_board(text.word(at - 1), told):
         return at + 1, True
     if match and word not in _OTHERS | _PEOPLE:
-        known = told.name(*(n.name for n in match.names)) or told.speaks
+        known = told.name(*(n.name for n in match.names)) or told.answers
         known = known or _whole_of(text, at, match.end, told) or _contents(text, match.end, told)
         if match.of("person") and lexicon.LEAVING.intersection(
             text.words[match.end : match.end + 2]

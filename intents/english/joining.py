@@ -39,6 +39,9 @@ def joined(before: list[Goal], goal: Goal, *, first: str) -> Goal:
         if _already_sought(before[-1], goal):
             before.pop()
     last = before[-1] if before else goal
+    if isinstance(last, Tell) and goal == Tell(object=ObjectQuery(), property=last.property):
+        before.pop()
+        return last  # what is on the rack? Just the name of the thing
     if _is_answer(last, goal):
         before.pop()
         return goal

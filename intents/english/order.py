@@ -60,6 +60,8 @@ RULES = Rules(
         repetition.again,
         time_clauses.one_before_the_other,
         time_clauses.not_until,
+        # What an order is good for, before it is an order itself.
+        remarks.aimed_at,
         # Statements with a wish behind them, or a place to be noted: before a fronted thing and a
         # verb are seen in "I put my comb on the bench, go and get it".
         needs.lost,
@@ -147,6 +149,7 @@ RULES = Rules(
         # Anything can be taken back, what is a condition or "after ..." as well.
         correction,
         afterthoughts.left_undone,
+        exclusions.kept_out,
         exclusions.excluded,
         ended_early,
         afterthoughts.not_now,

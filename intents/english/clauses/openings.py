@@ -90,7 +90,7 @@ def _opening_end(text: Text, at: int) -> int | None:
     """Where "could you" or "and then" ends, if it is no part of what is asked for."""
     if text.words[at + 1 : at + 3] == ["you", "see"] and _is_seen(text, at + 3):
         return None
-    if goes_oneself_end(text, at):
+    if goes_oneself_end(text, at) or sits_oneself_end(text, at) or purpose_end(text, at):
         return None  # I want to go to the lab: to be taken there
     verb = verbs_at(text.words, at)
     end = max(connector_end(text, at) or 0, text.phrase_end(lexicon.OPENERS, at) or 0)
@@ -127,6 +127,44 @@ def goes_oneself_end(text: Text, at: int) -> int | None:
         end += 1
     going = text.phrase_end(_GOING, end)
     return going if going and not text.name_at(end) else None
+
+
+_BODILY = lexicon.words("sit lie stand kneel squat nap sleep rest wave bow nod dance")
+_SELF = lexicon.words("down up a bit while moment there here now myself for little too please")
+
+
+def sits_oneself_end(text: Text, at: int) -> int | None:
+    """Where "I want to sit down" ends: that is what who speaks wants to do."""
+    if text.word(at) not in ("i", "we") or text.word(at + 1) not in _OBLIGED:
+        return None
+    end = at + 1
+    while text.word(end) in _OBLIGED | {"to"}:
+        end += 1
+    if text.word(end - 1) != "to" or text.word(end) not in _BODILY:
+        return None
+    end += 1
+    while end < len(text) and text.word(end) not in (COMMA, FULL_STOP, "so", "but"):
+        if text.word(end) not in _SELF and not text.lookup(lexicon.LOCATIVES, end - 1):
+            return None
+        end += 1
+    return end
+
+
+_PURPOSES = lexicon.phrases("to,in order to,so as to")
+
+
+def purpose_end(text: Text, at: int) -> int | None:
+    """Where "to make the bed, ..." ends: what an order is good for, and no order by itself."""
+    start = text.phrase_end(_PURPOSES, at)
+    first = at == 0 or text.word(at - 1) == FULL_STOP
+    if start is None or not first or not verbs_at(text.words, start):
+        return None
+    end = start
+    while end < len(text) and text.word(end) not in (COMMA, FULL_STOP):
+        end += 1
+    after = end + 1 + (text.word(end + 1) == "please")
+    ordered = text.word(end) == COMMA and verbs_at(text.words, after)
+    return end if ordered and base_form(text.word(after)) == text.word(after) else None
 
 
 def _is_seen(text: Text, at: int) -> bool:

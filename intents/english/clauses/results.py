@@ -9,7 +9,7 @@ from intents.english.reading import Found
 from intents.english.words.text import Text
 from intents.goals import Close, Goal, Open, Switch
 
-_RESULTS: dict[str, tuple[type[Open | Close | Switch], bool]] = {
+RESULTS: dict[str, tuple[type[Open | Close | Switch], bool]] = {
     "open": (Open, True), "closed": (Close, True), "shut": (Close, True), "on": (Switch, True),
     "going": (Switch, True), "running": (Switch, True), "started": (Switch, True),
     "off": (Switch, False), "out": (Switch, False), "stopped": (Switch, False),
@@ -31,7 +31,7 @@ def made_so(
     text: Text, phrase: NounPhrase, at: int, scope: Scope, *, end: int | None = None
 ) -> Found | None:
     """What makes a thing what the word at ``at`` says, if the clause ends there or at ``end``."""
-    result = _RESULTS.get(text.word(at))
+    result = RESULTS.get(text.word(at))
     end = at + 1 if end is None else end
     end = _past_favour(text, end)
     if result is None or not ends_clause(text, end):

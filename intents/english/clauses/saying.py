@@ -28,7 +28,8 @@ _ABOUT = lexicon.phrases(
     "about,of,know,know about,as to,regarding,that,on,to know,with,out,me with"
 )
 _LETTERS = lexicon.words(
-    "message messages mail mails email emails letter phone call calls tweet chat"
+    "message messages mail mails email emails letter phone phones telephone telephones call calls "
+    "tweet chat door doors doorbell bell intercom buzzer"
 )
 _QUESTION_WORDS = lexicon.words("question questions quiz quizzes query queries")
 
@@ -283,7 +284,10 @@ def _tell(text: Text, at: int, listener: Person | None, scope: Scope) -> Found:
     at += first is not None and text.word(at) == COMMA
     at = text.phrase_end(_ABOUT, at) or at
     at = text.phrase_end(_ABOUT, at) or at
-    found = text.phrase_end(_RESULT, at) or (at if ends_clause(text, at) else None)
+    result = text.phrase_end(_RESULT, at)
+    if result and not (ends_clause(text, result) or text.word(result) == "to"):
+        result = None  # how many *cups are on it*
+    found = result or (at if ends_clause(text, at) else None)
     heard_by = _listener(text, found + 1, scope) if found and text.word(found) == "to" else None
     if heard_by is not None and to is None:
         to, found = to_person(heard_by, scope), heard_by.end

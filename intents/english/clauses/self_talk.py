@@ -38,6 +38,7 @@ _PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
     ("remaining", r"(?:are|is) (?:you|we|it|that) (?:nearly |almost )?(?:there|done|over|finished"
                   r"|ready)(?: soon| yet| already)+|(?:are|is) (?:you|we) (?:nearly|almost)? ?there"
                   r"|(?:nearly|almost) (?:done|there|finished|ready)"),
+    ("why", r"(?:explain|account for|justify) yourself"),
     ("why", r"what (?:stopped|made) you(?: \w+){0,2}"),
     ("why", r"what (?:is|was) the reason (?:that |why |for )?.*"),
     ("why", r"why (?:it|that|this) (?:did not|does not|has not|is not|was not|failed|stopped).*"),

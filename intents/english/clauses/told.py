@@ -60,7 +60,7 @@ _REACH = 6
 
 def told_end(text: Text, at: int) -> int | None:
     """Where a clause ends that only tells something, if one begins at a word."""
-    if text.phrase_end(_WHENEVER, at):
+    if text.phrase_end(_WHENEVER, at) or text.words[at : at + 3] == ["in", "case", "of"]:
         return None
     subjectless = text.phrase_end(_SUBJECTLESS, at)
     if subjectless and text.word(subjectless) not in ("you", "we"):

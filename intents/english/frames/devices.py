@@ -79,6 +79,13 @@ def _is_only(phrase: NounPhrase, head: str, generic: frozenset[str]) -> bool:
     return len(names) == 1 and names[0].split()[-1] == head and head in generic
 
 
+def _is_appliance(phrase: NounPhrase) -> bool:
+    """Whether what is named is of a kind that is switched; "it" may be."""
+    named = phrase.name("object", "place") or phrase.said
+    heads = {singular(one.split()[-1].lower()) for one in (named, phrase.said) if one}
+    return phrase.noun == "pronoun" or not heads.isdisjoint(_APPLIANCES)
+
+
 _LOUD = words("tv television telly radio music stereo speaker heater heating thermostat")
 """What is turned down without being turned off."""
 
@@ -143,11 +150,9 @@ def switch(clause: Clause, scope: Scope) -> list[Goal]:
         raise NotUnderstood("I can switch it on or off, not down")
     if on == off:
         raise Misfit("on or off?")
-    if (
-        clause.verb in ("light", "put")
-        and said
-        and singular(said.phrase.said.split()[-1]) not in _APPLIANCES
-    ):
+    if said is not None and "down" in particles and not _is_appliance(said.phrase):
+        raise NotUnderstood(f"I cannot turn down “{said.phrase.said}”")
+    if clause.verb in ("light", "put") and said and not _is_appliance(said.phrase):
         raise NotUnderstood(f"I cannot switch “{said.phrase.said}”")
     if said is None and not particles & {"on", "off"}:
         raise Misfit("switch what?")

@@ -37,6 +37,15 @@ def _destination(slots: Slots) -> str | None:
     return OPERATOR if slots.direction("backward") else None
 
 
+def _where_spoken_of(slots: Slots) -> str | None:
+    """Lead Ada *there*: to the place spoken of, and not Ada who is there."""
+    bare = slots.peek("")
+    places = bare.phrase.places if bare and bare.phrases else []
+    if not places or places[-1].of.noun != "there" or not slots.scope.place:
+        return None
+    return to_place(places.pop().of, slots.scope)
+
+
 def follow(clause: Clause, scope: Scope) -> list[Goal]:
     """Follow Ada out of the lab."""
     slots = Slots(clause, scope)
@@ -60,6 +69,7 @@ def guide(clause: Clause, scope: Scope) -> list[Goal]:
             raise Misfit(f"“{bare.phrase.said}” is not a person I could guide")
         if bare:
             slots.rest.insert(0, bare)
+    to = to or _where_spoken_of(slots)
     people = _someone(slots, "Whom shall I guide?", "with")
     slots.direction("forward", "around", "up", "down")
     slots.done()

@@ -293,7 +293,8 @@ def to_place(
             "I know that place only by what is there. What is it called?", (), phrase.where
         )
     if phrase.noun in ("there", "pronoun"):
-        found = scope.place or (scope.device if phrase.noun == "pronoun" else None)
+        opened = _opened(scope) if phrase.noun == "pronoun" else ""
+        found = opened or scope.place or (scope.device if phrase.noun == "pronoun" else None)
         if found is None:
             raise Unclear("Where is that?")
         return found
@@ -315,6 +316,13 @@ def to_place(
             return inside[0]
         raise Unclear(f"Which {phrase.said}, {_the(names)}?", tuple(names), phrase.said)
     return names[0]
+
+
+def _opened(scope: Scope) -> str:
+    """Open the cupboard and count the cups in *it*: what was opened last."""
+    return (
+        scope.last.what if isinstance(scope.last, Open) and scope.last.what == scope.device else ""
+    )
 
 
 def _where(phrase: NounPhrase, scope: Scope) -> tuple[str | None, Relation | None]:
@@ -346,7 +354,7 @@ def _relation(place: Locative, scope: Scope) -> Relation | None:
     """Where it is relative to something that is not simply a place to be at."""
     spot = place.of.noun in ("here", "there", "operator", "place") or bool(place.of.name(*_SPOTS))
     if place.of.noun == "pronoun":
-        spot = scope.place is not None
+        spot = scope.place is not None or bool(_opened(scope))
     unknown = place.of.noun == "unknown"
     if unknown or place.of.is_person or (spot and place.how in (None, "on", "in", "near")):
         return None

@@ -8,7 +8,8 @@ from intents.english.phrases.complements import Complement, ends_clause, read_co
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_object, to_person
-from intents.english.reading import Found, Sentence
+from intents.english.reading import Found, SaidVerb, Sentence
+from intents.english.substitution import substitute
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.measures import number
@@ -28,6 +29,7 @@ from intents.goals import (
     Guide,
     LookAt,
     Meet,
+    ObjectQuery,
     Open,
     Person,
     Pick,
@@ -190,6 +192,9 @@ def also_for(sentence: Sentence, at: int) -> Found | None:
         return None
     to = to_person(phrase, sentence.scope)
     again = replace(goal, to=to)
+    who = replace(goal.to, at=None)
+    if who in (Person(), Person(gender=who.gender)) and text.word(at - 1) == COMMA:
+        sentence.before.pop()  # to the guest, Ada: that is the guest
     return [replace(last, goals=(again,)) if isinstance(last, ForEach) else again], phrase.end
 
 
@@ -201,17 +206,66 @@ def gapped(sentence: Sentence, at: int) -> Found | None:
     complements, end = read_complements(sentence.text, at)
     again = bool(sentence.before) and _has_direction(sentence.before[-1])  # "left and then right"
     told = any(c.phrases or (c.direction and again) for c in complements)
+    if len(complements) == 1 and complements[0].role == "" and _tells_which(sentence, at, end):
+        return [], end
     if not told or not goes_on(sentence.text, end):
         return None
+    if "turn" in said.senses and _goes_back(sentence, at, complements):
+        return framed(sentence, "go", "go", complements, first=at, end=end)
     kept = [(s, said.first) for s in said.senses if s not in SPEECH and s != "count"]
     found = first_that_fits(sentence, kept, said.at, list(sentence.notes.particles), resumed=at)
     me = any(p.noun in ("operator", "here") for c in complements for p in c.phrases)
-    return found if found is None or me else (_to_the_same(sentence, found[0]), found[1])
+    if found is None or me:
+        return found
+    _share(sentence, said, at, found[0])
+    return _to_the_same(sentence, found[0]), found[1]
+
+
+def _goes_back(sentence: Sentence, at: int, complements: list[Complement]) -> bool:
+    """Turn round and *back to the door*: that is to walk there."""
+    somewhere = any(c.phrases and c.role == "to" and c.phrase.is_spot for c in complements)
+    return sentence.text.word(at) == "back" and somewhere
+
+
+def _tells_which(sentence: Sentence, at: int, end: int) -> bool:
+    """Put the cup on the tray, *the one that is on the desk*: what is told of the cup."""
+    text, last = sentence.text, sentence.before[-1] if sentence.before else None
+    phrase = noun_phrase(text, at)
+    if phrase is None or phrase.noun != "one" or phrase.determiner != "the" or phrase.other:
+        return False
+    thing = getattr(last, "object", None) if last is not None else None
+    apart = text.word(at - 1) in (COMMA, FULL_STOP) and ends_clause(text, end)
+    if not (apart and phrase.places and isinstance(thing, ObjectQuery)) or thing.at or thing.held:
+        return False
+    told = to_object(phrase, sentence.scope)
+    color = told.color or thing.color
+    now = replace(thing, at=told.at, relation=told.relation or thing.relation, color=color)
+    sentence.before[:] = [substitute(goal, thing, now) for goal in sentence.before]
+    return True
+
+
+_OF_SPEAKER = lexicon.OPERATOR_WORDS | lexicon.words("here back over i for")
+
+
+def _share(sentence: Sentence, said: SaidVerb, at: int, goals: list[Goal]) -> None:
+    """Bring the cup and then *the bowl to Ada*: where to is told once, and is for both."""
+    before, goal = sentence.before, goals[0] if goals else None
+    last = before[-1] if before else None
+    between = sentence.text.words[said.first : at]
+    untold = _OF_SPEAKER.isdisjoint(between) and FULL_STOP not in between
+    if not untold or not isinstance(last, Bring) or last.to != ME:
+        return
+    if isinstance(goal, Bring) and goal.to != ME:
+        before[-1] = replace(last, to=goal.to)
+    elif isinstance(goal, Place) and (goal.on or goal.in_):
+        before[-1] = replace(goal, object=last.object)
 
 
 def _to_the_same(sentence: Sentence, goals: list[Goal]) -> list[Goal]:
     """Bring Ada the cup, then *the bottle*: to her as well."""
     last = sentence.scope.last
+    if isinstance(last, Guide) and last.to and len(goals) == 1 and isinstance(goals[0], Guide):
+        return [replace(goals[0], to=goals[0].to or last.to)]  # Ada to the door, then Leo
     if not isinstance(last, Bring | Give) or not isinstance(last.to, Person):
         return goals
     to = last.to

@@ -32,8 +32,8 @@ _KNOCKS = lexicon.words(
     "mash cut bung fling nudge tap slide roll wind draw"
 )
 """What a thing is made to go on, off, open or shut with, by those who do not say "switch"."""
-_MOVING = lexicon.words("put get pull push slide set")
-"""With these only a device goes on, off or out: "get the pears out" is no light."""
+_MOVING = lexicon.words("put get pull push slide set keep leave have want need")
+"""With these only a device goes on, off or out: "get the pears out", "keep it out" is no light."""
 _ENSURES = lexicon.phrases(
     "make sure,make sure that,ensure,ensure that,see to it that,see that,take care that,check that,"
     "see to it,be sure that,arrange that,arrange for"

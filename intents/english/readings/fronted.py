@@ -32,6 +32,11 @@ def fronted(sentence: Sentence, at: int) -> Found | None:
     )
     if not usable or complements[0].phrase.noun == "pronoun":
         return None
+    if "but" in text.words[end:after]:
+        return None  # all the toys into the box, but leave the ball
+    whole = text.word(end) == FULL_STOP and any(c.role in ("to", "into") for c in complements)
+    if whole and complements[0].role == "":
+        return None  # one bun to Ada. Then wave
     first = complements[0]
     if first.role == "at" and _is_where(text, after):
         where = to_place(first.phrase, scope)

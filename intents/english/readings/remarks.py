@@ -3,11 +3,15 @@
 "There is a cup on the table, ..."; "I left my comb on the bench, ..."; "I am thirsty, ...".
 """
 
+from contextlib import suppress
+
+from intents.english.clauses.openings import purpose_end, sits_oneself_end
 from intents.english.clauses.statements import IS, mention_phrase, stated
 from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrases.phrase import NounPhrase
 from intents.english.reading import Found, Sentence
 from intents.english.substitution import substitute
+from intents.english.trouble import ReadingError
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
 from intents.english.words.verbs import verbs_at
@@ -25,6 +29,20 @@ _SOMEWHERE = lexicon.words("somewhere here there yesterday earlier today just no
 _ABOUT = lexicon.words("down back away up out off")
 _SHORT = 4
 """What is said of somebody in so many words is a remark."""
+
+
+def aimed_at(sentence: Sentence, at: int) -> Found | None:
+    """*To make the bed*, take the pillow off it; *I want to sit down*: passed over."""
+    text = sentence.text
+    end = purpose_end(text, at) or sits_oneself_end(text, at)
+    if end is None:
+        return None
+    for n in range(at, end):
+        phrase = noun_phrase(text, n) if text.name_at(n) else None
+        if phrase is not None and not phrase.is_person:
+            with suppress(ReadingError):
+                mention_phrase(phrase, sentence.scope)
+    return [], end
 
 
 def left_somewhere(sentence: Sentence, at: int) -> Found | None:

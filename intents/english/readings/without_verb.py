@@ -1,6 +1,6 @@
 """Commands without a verb that says it: "lights off", "three steps forward", "make a fist"."""
 
-from intents.english.clauses.results import brought_about, made_so
+from intents.english.clauses.results import RESULTS, brought_about, made_so
 from intents.english.clauses.verb_clauses import framed
 from intents.english.frames.devices import is_device
 from intents.english.phrases.complements import read_complements
@@ -8,6 +8,7 @@ from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.reading import Found, Sentence
 from intents.english.trouble import Misfit, Unclear
 from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import Close, LookAt, Switch
 
@@ -69,7 +70,25 @@ def switched(sentence: Sentence, at: int) -> Found | None:
     scope = sentence.scope
     found = made_so(text, thing, thing.end + 1, scope) if apart else None
     found = found or brought_about(text, at, scope)
-    return found if found and isinstance(found[0][0], Switch) else None
+    if (
+        found
+        and not isinstance(found[0][0], Switch)
+        and (apart or not _is_listed(text, at, found[1]))
+    ):
+        return None
+    return found
+
+
+def _is_listed(text: Text, at: int, end: int) -> bool:
+    """Door closed, *lamp off*: whether another thing beside it is to be so, too."""
+    linked = (COMMA, "and", "then")
+    if text.word(at - 1) in linked and text.word(at - 2) in RESULTS:
+        return True
+    after = end
+    while text.word(after) in linked:
+        after += 1
+    thing = noun_phrase(text, after) if after > end and not verbs_at(text.words, after) else None
+    return thing is not None and text.word(thing.end) in RESULTS
 
 
 def only_named(sentence: Sentence, at: int) -> None:

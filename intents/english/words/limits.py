@@ -9,7 +9,8 @@ from intents.english.words import lexicon
 from intents.english.words.measures import NUMBER_WORDS, UNIT_WORDS
 
 CONDITIONS = lexicon.words(
-    "if unless until till provided providing assuming except besides otherwise else"
+    "if unless until till provided providing assuming except besides otherwise else case event "
+    "emergency"
 )
 """They make an order one for some cases only."""
 TIMES = lexicon.words("before after when whenever once while then later tomorrow tonight overnight")
