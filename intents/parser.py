@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from intents.allowed import excess
 from intents.bounds import loosened, tells, unkept
+from intents.caution import cautious
 from intents.context import Context, answered, completed
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
@@ -132,7 +133,8 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         chosen = _completed(text, vocabulary, context, question)
         if chosen:
             return chosen
-    found = _looked(text, vocabulary, context)
+    heard: dict[str, Attempt] = {}
+    found = _looked(text, vocabulary, context, heard)
     outcome, after = _within_bounds(text, vocabulary, context, found)
     if question is not None:
         pointed = None if isinstance(outcome, Goals) else _pointed_out(text, vocabulary, context)
@@ -141,8 +143,18 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         if pointed:
             return pointed
     index = index_of(vocabulary)
-    last = third_look(text, index, found, lambda said: first_look(said, vocabulary, context))
-    return (outcome, after) if last is found else _within_bounds(text, vocabulary, context, last)
+    last = third_look(text, index, found, _reader(vocabulary, context, heard))
+    if last is not found:
+        outcome, after = _within_bounds(text, vocabulary, context, last)
+    careful = cautious(text, _said(text, outcome, heard), outcome, vocabulary)
+    return (careful, context if isinstance(careful, Refusal) else after)
+
+
+def _said(text: str, outcome: Outcome, heard: dict[str, Attempt]) -> str:
+    """In which words a text was read: its own, if those mean the same."""
+    goals = () if isinstance(outcome, Refusal) else outcome.goals
+    read = [said for said, attempt in heard.items() if attempt.goals == goals]
+    return text if text in read or not read else read[-1]
 
 
 def _pointed_out(
@@ -219,13 +231,27 @@ def _second_opinion(
     return _settled(replace(checked, parser=other.parser), context, scope)
 
 
-def _looked(text: str, vocabulary: Vocabulary, context: Context) -> Attempt:
-    """What a text asks for: read as it stands, without background, in plainer words."""
+def _looked(
+    text: str, vocabulary: Vocabulary, context: Context, heard: dict[str, Attempt] | None = None
+) -> Attempt:
+    """What a text asks for: read as it stands, without background, in plainer words.
+
+    All words in which it was read are kept in ``heard``, with what came of them.
+    """
+    read = _reader(vocabulary, context, {} if heard is None else heard)
+    return second_look(text, index_of(vocabulary), read(text), read)
+
+
+def _reader(
+    vocabulary: Vocabulary, context: Context, heard: dict[str, Attempt]
+) -> Callable[[str], Attempt]:
+    """The grammar; what it read is kept."""
 
     def read(said: str) -> Attempt:
-        return first_look(said, vocabulary, context)
+        heard[said] = first_look(said, vocabulary, context)
+        return heard[said]
 
-    return second_look(text, index_of(vocabulary), read(text), read)
+    return read
 
 
 def _within_bounds(
