@@ -4,6 +4,7 @@ First the word "stop", before anything else; then the answer to an open question
 grammar. What the grammar understands is checked against what is known to be there.
 """
 
+import re
 import time
 from collections.abc import Callable
 
@@ -51,7 +52,7 @@ from intents.vocabulary import Vocabulary
 
 Fallback = Callable[[str, Vocabulary, Context], Outcome | None]
 """Asked for what the grammar does not understand; None if it has nothing to say either."""
-__all__ = ["MAX_CHARACTERS", "Fallback", "hear", "is_stop", "parse"]
+__all__ = ["MAX_CHARACTERS", "Fallback", "asks_to_stop", "hear", "is_stop", "parse"]
 
 _ONE_OF = lexicon.words("one a an any either which")
 _ASKING = lexicon.words(
@@ -61,6 +62,8 @@ ANSWERED = (
     "I can say where things are, what I hold, see and do, how long it takes, and why I stopped."
 )
 """What is told to who asks what cannot be read."""
+_ERRAND = re.compile(r"\bstop(?:ping)? (?:by|in|off|over|at|near|for|with|on)\b", re.IGNORECASE)
+"""Stop *by* the shop, which may be unknown."""
 MAX_CHARACTERS = 1000
 """Longer texts are refused: nobody says a thousand characters to a robot at once."""
 
@@ -77,6 +80,19 @@ def parse(text: str, vocabulary: Vocabulary, *, context: Context | None = None) 
         Goals, a question whose answer is missing, or a refusal with its reason.
     """
     return hear(text, vocabulary, context=context)[0]
+
+
+def asks_to_stop(text: str, vocabulary: Vocabulary) -> bool:
+    """Whether all that the grammar makes of a text is to stop, in words that are no cry.
+
+    "Desist from going there" is read, and not spotted: it takes some milliseconds, which whoever
+    reads lines has, where waiting for the line before takes seconds. Nothing is reworded.
+    """
+    if len(text) > MAX_CHARACTERS or _ERRAND.search(text):
+        return False
+    outcome = first_look(text, vocabulary, Context()).outcome
+    goals = outcome.goals if isinstance(outcome, Goals) else ()
+    return bool(goals) and all(isinstance(goal, Stop) for goal in goals)
 
 
 def hear(

@@ -135,7 +135,8 @@ UNMARKED = (
     "we need you to stop", "the robot is about to hit the child please make it stop right now",
     "walk to the door and stop!", "abort abort", "ABORT! abort!", "cut the power", "motors off",
     "kill the motors now", "turn the motors off", "please shut off the power", "shutdown",
-    "dnt move", "donot move", "don;t move", "do nt move", "get off me", "✋", "⛔", "⛔ no", "atop!", "stoop!",
+    "dnt move", "donot move", "don;t move", "do nt move", "get off me", "✋", "⛔", "⛔ no",
+    "atop!", "stoop!",
 )  # fmt: skip
 ORDINARY = (
     "why did you stop", "what makes you stop", "how do you stop", "how can I stop",

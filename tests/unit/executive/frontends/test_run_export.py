@@ -147,7 +147,8 @@ def test_tables_hold_every_moment_and_event(run, tmp_path, kind):
 
 HOSTILE = (
     "=cmd|' /C calc'!A0", "@SUM(1+1)", "+1", "-1", "\t=1", "\r=1", " =1", "\n=1", "＝1",
-    "cup;=1+1", "cup; =1", "cup;\"@SUM(1)", "a;b;-1;+1", "cup|=1", "\x1b]0;owned\x07", "a\u202eb", "a\u200bb", "\x9b31m",
+    "cup;=1+1", "cup; =1", "cup;\"@SUM(1)", "a;b;-1;+1", "cup|=1",
+    "\x1b]0;owned\x07", "a\u202eb", "a\u200bb", "\x9b31m",
 )  # fmt: skip
 
 
