@@ -102,6 +102,8 @@ _LIKE = words(
     "not never dont donot cannot noone nobody mustnt shouldnt forbid forbidden avoid refrain "
     "prohibit prohibited without"
 )
+_SHORT = words("nto ont mot npt noy nof nog nkt n0t dnt dpt")
+"""Of words so short only slips of the fingers count: "oot" is "out" to a Scot."""
 _NONE = words("now note not noted nut nor dot lot hot got")
 _AFTER_DO = re.compile(r"\b(?:do|must|should|shall|you) (\w{2,4})\b")
 _WORD = re.compile(r"[^\W\d_]+")
@@ -196,6 +198,7 @@ def _slips(text: str, names: NameIndex) -> Iterator[str]:
         if len(word) < 3 or word in KNOWN_WORDS or word in _NONE or word in _LIKE:
             continue
         near = any(abs(len(word) - len(no)) < 2 and OSA.distance(word, no) == 1 for no in _LIKE)
+        near = near and (len(word) > 3 or word in _SHORT)
         if near and not is_english(word) and names.match([word], 0) is None:
             yield word
 

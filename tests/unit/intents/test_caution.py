@@ -36,7 +36,7 @@ GOES_ON = (
     "go to the sofa now", "don't forget to go to the sofa", "no hurry, go to the sofa",
     "take note: go to the sofa", "I can't walk, so go to the sofa", "no, go to the sofa",
     "not the stove, go to the sofa", "would you not mind going to the sofa",
-    "prevent accidents and go to the sofa",
+    "prevent accidents and go to the sofa", "oot wi ye, go to the sofa",
 )  # fmt: skip
 
 
