@@ -4,6 +4,7 @@ First the word "stop", before anything else; then the answer to an open question
 grammar. What the grammar understands is checked against what is known to be there.
 """
 
+import re
 import time
 from collections.abc import Callable
 
@@ -11,6 +12,7 @@ from msgspec.structs import replace
 
 from intents.allowed import excess
 from intents.bounds import loosened, tells, unkept
+from intents.caution import cautious
 from intents.context import Context, answered, completed
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
@@ -50,7 +52,7 @@ from intents.vocabulary import Vocabulary
 
 Fallback = Callable[[str, Vocabulary, Context], Outcome | None]
 """Asked for what the grammar does not understand; None if it has nothing to say either."""
-__all__ = ["MAX_CHARACTERS", "Fallback", "hear", "is_stop", "parse"]
+__all__ = ["MAX_CHARACTERS", "Fallback", "asks_to_stop", "hear", "is_stop", "parse"]
 
 _ONE_OF = lexicon.words("one a an any either which")
 _ASKING = lexicon.words(
@@ -60,6 +62,8 @@ ANSWERED = (
     "I can say where things are, what I hold, see and do, how long it takes, and why I stopped."
 )
 """What is told to who asks what cannot be read."""
+_ERRAND = re.compile(r"\bstop(?:ping)? (?:by|in|off|over|at|near|for|with|on)\b", re.IGNORECASE)
+"""Stop *by* the shop, which may be unknown."""
 MAX_CHARACTERS = 1000
 """Longer texts are refused: nobody says a thousand characters to a robot at once."""
 
@@ -76,6 +80,19 @@ def parse(text: str, vocabulary: Vocabulary, *, context: Context | None = None) 
         Goals, a question whose answer is missing, or a refusal with its reason.
     """
     return hear(text, vocabulary, context=context)[0]
+
+
+def asks_to_stop(text: str, vocabulary: Vocabulary) -> bool:
+    """Whether all that the grammar makes of a text is to stop, in words that are no cry.
+
+    "Desist from going there" is read, and not spotted: it takes some milliseconds, which whoever
+    reads lines has, where waiting for the line before takes seconds. Nothing is reworded.
+    """
+    if len(text) > MAX_CHARACTERS or _ERRAND.search(text):
+        return False
+    outcome = first_look(text, vocabulary, Context()).outcome
+    goals = outcome.goals if isinstance(outcome, Goals) else ()
+    return bool(goals) and all(isinstance(goal, Stop) for goal in goals)
 
 
 def hear(
@@ -132,7 +149,8 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         chosen = _completed(text, vocabulary, context, question)
         if chosen:
             return chosen
-    found = _looked(text, vocabulary, context)
+    heard: dict[str, Attempt] = {}
+    found = _looked(text, vocabulary, context, heard)
     outcome, after = _within_bounds(text, vocabulary, context, found)
     if question is not None:
         pointed = None if isinstance(outcome, Goals) else _pointed_out(text, vocabulary, context)
@@ -141,8 +159,18 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         if pointed:
             return pointed
     index = index_of(vocabulary)
-    last = third_look(text, index, found, lambda said: first_look(said, vocabulary, context))
-    return (outcome, after) if last is found else _within_bounds(text, vocabulary, context, last)
+    last = third_look(text, index, found, _reader(vocabulary, context, heard))
+    if last is not found:
+        outcome, after = _within_bounds(text, vocabulary, context, last)
+    careful = cautious(text, _said(text, outcome, heard), outcome, vocabulary)
+    return (careful, context if isinstance(careful, Refusal) else after)
+
+
+def _said(text: str, outcome: Outcome, heard: dict[str, Attempt]) -> str:
+    """In which words a text was read: its own, if those mean the same."""
+    goals = () if isinstance(outcome, Refusal) else outcome.goals
+    read = [said for said, attempt in heard.items() if attempt.goals == goals]
+    return text if text in read or not read else read[-1]
 
 
 def _pointed_out(
@@ -219,13 +247,27 @@ def _second_opinion(
     return _settled(replace(checked, parser=other.parser), context, scope)
 
 
-def _looked(text: str, vocabulary: Vocabulary, context: Context) -> Attempt:
-    """What a text asks for: read as it stands, without background, in plainer words."""
+def _looked(
+    text: str, vocabulary: Vocabulary, context: Context, heard: dict[str, Attempt] | None = None
+) -> Attempt:
+    """What a text asks for: read as it stands, without background, in plainer words.
+
+    All words in which it was read are kept in ``heard``, with what came of them.
+    """
+    read = _reader(vocabulary, context, {} if heard is None else heard)
+    return second_look(text, index_of(vocabulary), read(text), read)
+
+
+def _reader(
+    vocabulary: Vocabulary, context: Context, heard: dict[str, Attempt]
+) -> Callable[[str], Attempt]:
+    """The grammar; what it read is kept."""
 
     def read(said: str) -> Attempt:
-        return first_look(said, vocabulary, context)
+        heard[said] = first_look(said, vocabulary, context)
+        return heard[said]
 
-    return second_look(text, index_of(vocabulary), read(text), read)
+    return read
 
 
 def _within_bounds(

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from rapidfuzz.distance import OSA
 
 from intents.cries import AROUND, STEMS_OF_STOPS, STOPS
+from intents.english.words.dictionary import is_english
 from intents.english.words.lexicon import words
 from intents.letters import bare, latin, without_sequences
 from intents.limited_stops import Surroundings
@@ -25,6 +26,8 @@ _SHORT = 5
 _WORD = re.compile(r"[^\W_]+")
 _SENTENCE = re.compile(r"[.!?\n\r¡¿。！…]")
 _CLAUSE = re.compile(r"[.!?,;:\n\r¡¿。！、…]+|\s+-+\s+")
+_TORN = re.compile(r"\bd\W?o?\W?n\W?o?\W{0,2}t(?=\s+move\b)")
+"""However "don't" is written."""
 _STOPS = words(
     "stop stopp stops stopit stopping halt freeze emergency estop abbruch anhalten notaus notstopp "
     "arrete arretez arreter alto detente detengase parate basta ferma fermo fermati fermatevi "
@@ -37,6 +40,7 @@ _PHRASES = (
     "do not move", "don't move", "dont move", "don t move", "e stop", "hold it right there",
     "let go of me", "hor auf", "not aus", "au secours", "cut it out", "abort everything",
     "that's enough", "kill switch", "red button", "you are hurting", "you're hurting",
+    "get off me",
 )  # fmt: skip
 _NEAR = ("stop", "freeze", "emergency")
 _OTHER_WORDS = words(
@@ -61,9 +65,23 @@ _BEFORE = words(
 """Words that may come before a cry."""
 _NOT_A_CRY = re.compile(
     r"\b(?:do not|don'?t|never|without|not|did you|have you|when did|are you|bus|train|tram|"
-    r"then|the|a|last|next|until i say|till i say|i say|if i say|full)\s+(?:ever\s+)?$"
-    r"|^(?:why|when|where|how|what|who|did|have|has|are|were)\b.*$"
+    r"then|the|a|last|next|until i say|till i say|(?<=\w )i say|if i say|full)\s+(?:ever\s+)?$"
 )
+_ASKS = re.compile(r"^(?:why|when|where|how|what|who|did|do|does|have|has|are|were)\b")
+_OF_QUESTION = re.compile(
+    r"(?:^|\b(?:to|the|an?|next|last|first|your|my|bus|tram|train|truck|door|full|pit|you|i|we|they|"
+    r"he|she|it|robots?|not|never|ever|say|says|saying|word|always|usually|or|and|really|then|"
+    r"suddenly|just|was|is|why|when|where|how|what|who|(?<!do )(?<!doing )that|this|of|with|for)\s+"
+    r"|\b(?:make|makes|made|let|lets|see|saw|help)\s+(?:\w+\s+){1,2})$"
+)
+"""Before a last "stop" these make it a part of what is asked: "why did *you* stop"."""
+_AUXILIARY = re.compile(r"\b(?:do|does|did|can|could|will|would|should|shall|may|might|must)\b")
+_ASKED = re.compile(
+    r"\b(?:do|does|did|can|could|will|would|should)\b.*\b(?:hear|see|understand|listen|know|think|"
+    r"mean|realise|realize|care|want|do|dare|notice|get)\b"
+)
+"""With a verb of its own the question is over: "did you *hear* me stop"."""
+_TOO_OFTEN = re.compile(r"^how (?:many times|often|much louder)\b.*\bsay\s+$")
 _SOUND = re.compile(
     r"a+h+|a+r+g+h*|o+h+|o+w+|e+k+|u+g+h+|(?:h[aeio]+){2,}h?|w+a+h*|n+o+|omf?g|oi+|"
     r"(?:god|jesus|christ|crap|shit|fuck|damn|crikey|help|lol|wtf|ffs|bloody|yikes|heavens)"
@@ -85,6 +103,31 @@ _AT_HOME = re.compile(
 """Stop *poking your sister* is said to a child."""
 _GOES_ON = words("and then to the a an next every each last first this that bus train tram")
 """Before a last word "stop" these make it a step of a plan, or a noun."""
+_WISHED = re.compile(
+    r"^(?!.*\b(?:not|never|nobody|nor)\b|.*n't\b)(?:\w+\s+){0,2}(?:i|we)\b.{0,24}\b(?:like|love|want|need|"
+    r"wish|order|command|tell|told|ask|asked|beg|prefer|instruct)\w{0,3}\s+(?:for\s+)?"
+    r"(?:you|it|the robot|this thing)\s+to\s+$"
+)
+"""I would like you to *stop*."""
+_ENDS = re.compile(
+    rf"(?:(?:{'|'.join(sorted(_BEFORE))})\W+)*(?:"
+    r"abort(?:\W+abort)+|(?:cut|kill) (?:the |your |all )?(?:power|motors?|engines?)|"
+    r"(?:motors?|engines?|power) off|"
+    r"(?:switch|turn|shut) (?:the |your )?(?:motors?|engines?|power) off|"
+    r"(?:switch|turn|shut) off (?:the |your )?(?:motors?|engines?|power)|shutdown"
+    r")(?: (?:now|please|right now|at once|immediately|robot))*"
+)
+"""What takes the power away, and nothing else said."""
+_MAKE_IT = re.compile(
+    r"\b(?:make|get) (?:it|him|her|this|that|the robot|this thing|that thing) (?:to )?stop"
+    r"(?: (?:now|right|please|immediately|at once|already))*$"
+)
+_NO_WISH = re.compile(
+    r"^(?:how|what|why|who|when|where|which)\b|\b(?:not|never|did|to (?:make|get))\b|n't\b"
+)
+_KEYS = ("qwertyuiop", "asdfghjkl", "zxcvbnm")
+_CALLED = words("atop stoop strop slop sop stp storp stomp")
+"""With its sign of exclamation, and alone, a slip; else a word."""
 _ON_THE_WAY = re.compile(
     r"^\s*(?:by|at|in|over(?:\s+at)?|off|near|beside|outside|behind|next\s+to|in\s+front\s+of)\s+"
     r"(?:the|my|your|our|a|an|his|her)\b"
@@ -180,7 +223,9 @@ def _clauses(plain: str) -> Iterator[tuple[str, str]]:
 
 def _plain(text: str) -> str:
     """Lower case without accents and what cannot be seen."""
-    return bare(text.replace("’", "'").replace("🛑", " stop "))
+    for sign in "🛑⛔" if _WORD.search(text) else "🛑⛔✋🖐":
+        text = text.replace(sign, " stop ")
+    return _TORN.sub("don't", bare(text.replace("’", "'")))
 
 
 _CRIES = frozenset(map(_plain, _STOPS))
@@ -189,7 +234,11 @@ _CRIES = frozenset(map(_plain, _STOPS))
 def _cries(clause: str, around: Surroundings) -> bool:
     if any(clause.startswith(phrase) for phrase in _PHRASES) and not _LETS_LIE.match(clause):
         return True
-    if _AGAIN.search(clause) and not _NOT_A_CRY.match(clause):
+    if _AGAIN.search(clause) and not (_NOT_A_CRY.match(clause) or _ASKS.match(clause)):
+        return True
+    if _ENDS.fullmatch(clause) or (_MAKE_IT.search(clause) and not _NO_WISH.search(clause)):
+        return True
+    if _is_slip(clause, around):
         return True
     found = list(_WORD.finditer(clause))
     for number, word in enumerate(found):
@@ -199,6 +248,14 @@ def _cries(clause: str, around: Surroundings) -> bool:
         elif number > 2 * _SHORT or (len(found) > _SHORT and not _leads_in(word.group())):
             return False
     return False
+
+
+def _is_slip(clause: str, around: Surroundings) -> bool:
+    """A cry that is a slip of the fingers from one, and nothing else said."""
+    found = [word for word in _WORD.findall(clause) if not _leads_in(word)]
+    if not found or len(set(found)) > 1:
+        return False
+    return found[0] in _SLIPS or (around.exclaimed and found[0] in _CALLED)
 
 
 def _leads_in(word: str) -> bool:
@@ -211,7 +268,10 @@ def _ends_in_cry(clause: str, around: Surroundings) -> bool:
     found = list(_WORD.finditer(clause))
     for number in range(max(len(found) - 2, 1), len(found)):
         before = found[number - 1].group()
-        cries = _is_cry(found[number].group()) and before not in _GOES_ON
+        bound = before in _GOES_ON and not _WISHED.search(clause[: found[number].start()])
+        if before == "and" and number == len(found) - 1:
+            bound = around.at_rest and not around.exclaimed
+        cries = _is_cry(found[number].group()) and not bound
         if cries and _is_meant(clause, found[number], around):
             return True
     return False
@@ -227,7 +287,45 @@ def _is_meant(clause: str, word: re.Match[str], around: Surroundings) -> bool:
         return False
     if around.limit(before, after):
         return False
+    if _ASKS.match(before) and not _asked_before(before, after):
+        return False
     return not (_NOT_A_CRY.search(before) or _ON_THE_WAY.match(after) or _A_THING.search(before))
+
+
+def _asked_before(before: str, after: str) -> bool:
+    """What are you doing *stop*: whether a question is over before a cry at its end."""
+    if not set(_WORD.findall(after)) <= _AROUND:
+        return False
+    if _TOO_OFTEN.match(before):
+        return True
+    if _OF_QUESTION.search(before):
+        return False
+    return not _AUXILIARY.search(before) or _ASKED.search(before) is not None
+
+
+def _slips(word: str) -> Iterator[str]:
+    """A word with one letter taken for its neighbour on the keyboard, or two letters swapped."""
+    for at, letter in enumerate(word):
+        yield from (word[:at] + near + word[at + 1 :] for near in _neighbours(letter))
+        yield word[:at] + word[at : at + 2][::-1] + word[at + 2 :]
+        yield word[:at] + letter + word[at:]
+
+
+def _neighbours(letter: str) -> set[str]:
+    row = next(number for number, keys in enumerate(_KEYS) if letter in keys)
+    at = _KEYS[row].index(letter)
+    beside = {_KEYS[row][at - 1 : at], _KEYS[row][at + 1 : at + 2]}
+    above = _KEYS[row - 1][at : at + 2] if row else ""
+    below = _KEYS[row + 1][max(at - 1, 0) : at + 1] if row < 2 else ""
+    return (beside | set(above) | set(below)) - {""}
+
+
+_SLIPS = frozenset(
+    one
+    for cry in ("stop", "halt", "freeze", "abort")
+    for one in (*_slips(cry), "hault", "holt", "stahp")
+    if one not in ("abort", "half", "haft") and one not in _OTHER_WORDS and not is_english(one)
+)
 
 
 def _is_cry(word: str) -> bool:
@@ -242,6 +340,8 @@ def _is_cry(word: str) -> bool:
 
 
 def _spelled_out(plain: str) -> bool:
-    """S T O P, st.op."""
+    """S T O P, st.op; abort! abort!"""
+    if re.fullmatch(r"\W*(?:abort\W+)+abort\W*", plain):
+        return True
     alone = re.sub(r"[\W_]+", "", plain) in ("stop", "halt", "freeze")
     return alone or re.match(r"\W*s\W+t\W+o\W+p\b", plain) is not None

@@ -70,6 +70,11 @@ def _deeper(mended: _Mended) -> list[Problem]:
     return problems + [_problem(rest, finding) for finding in told]
 
 
+def _in_order(path: misfits.Path) -> tuple[tuple[str, int], ...]:
+    """Paths of one list in the order of its entries: the tenth after the ninth."""
+    return tuple(("", step) if isinstance(step, int) else (step, 0) for step in path)
+
+
 def _problem(node: Node, finding: Finding) -> Problem:
     return config.place(node, finding.where).problem(finding.message, finding.suggestion)
 
@@ -96,7 +101,7 @@ class _Mended:
             if not found:
                 return True
             paths = list(dict.fromkeys(misfit.path for misfit in found))
-            for path in sorted(paths, key=str, reverse=True):  # the last of a list first
+            for path in sorted(paths, key=_in_order, reverse=True):  # the last of a list first
                 if not path:
                     if self.node.kind != "map" or "rooms" not in self.node.entries:
                         return False

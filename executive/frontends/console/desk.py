@@ -28,6 +28,7 @@ from robot.printable import printable_line
 FILE = "desk.json"
 """In the folder of a run: where its desk is."""
 SOCKET = "desk.sock"
+OF = "desk.of"
 MOST_CLIENTS = 16
 """A console is two: what it hands on, and stops."""
 MOST_LINES = 50
@@ -43,6 +44,17 @@ class Place(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Where a desk is: the path of its socket."""
 
     socket: str
+
+
+class Of(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Whose desk it is, beside its socket: the folder of its run, which nobody else's file names.
+
+    A run may come from anywhere, and name any socket; only the executive of that very folder says
+    so here.
+    """
+
+    device: int
+    inode: int
 
 
 class Order(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -123,6 +135,7 @@ class Desk(Closing):
         self._out = shell.out
         self._printer = Printer(shell.out)  # a terminal that is full keeps no stop back
         shell.out = self._tee(self._printer)
+        _write(private / OF, of(folder))
         _write(folder / FILE, Place(socket=str(self._path)))
         threading.Thread(target=self._look, name="desk", daemon=True).start()
 
@@ -137,6 +150,8 @@ class Desk(Closing):
             (self._folder / FILE).unlink(missing_ok=True)
         self._server.close()
         self._path.unlink(missing_ok=True)
+        with suppress(OSError):
+            self._path.with_name(OF).unlink(missing_ok=True)
         self._worker.shutdown(wait=False, cancel_futures=True)
 
     # --- what goes back ---
@@ -225,7 +240,13 @@ def _news(**news: Any) -> bytes:
     return msgspec.json.encode(news) + b"\n"
 
 
-def _write(path: Path, place: Place) -> None:
+def of(folder: Path) -> Of:
+    """The folder of a run, as long as it is there."""
+    found = folder.stat()
+    return Of(device=found.st_dev, inode=found.st_ino)
+
+
+def _write(path: Path, place: Place | Of) -> None:
     """Say where it is; without, pages only look on."""
     with suppress(OSError):
         path.unlink(missing_ok=True)

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import msgspec
 
-from executive.frontends.console.desk import FILE, Order, Place
+from executive.frontends.console.desk import FILE, OF, SOCKET, Of, Order, Place, of
 from executive.frontends.console.pace import is_cry
 from robot.bringup import mailbox
 from robot.ordinary_files import read_secret
@@ -144,12 +144,16 @@ async def _empty(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> 
 
 
 def _place(folder: Path) -> str | None:
-    """The socket of a run's desk, if both are this user's own."""
+    """The socket of a run's desk, if it is this user's own, and is the desk of that very run."""
     try:
         owner = folder.stat().st_uid
         place = msgspec.json.decode(read_secret(folder / FILE, limit=4096), type=Place)
-        found = Path(place.socket).stat()
-    except (OSError, msgspec.DecodeError):
+        path = Path(place.socket)
+        private, found = path.parent.lstat(), path.lstat()
+        whose = msgspec.json.decode(read_secret(path.with_name(OF), limit=4096), type=Of)
+        is_its_own = whose == of(folder) and path.name == SOCKET
+    except (OSError, msgspec.DecodeError, ValueError):
         return None
-    own = owner == os.geteuid() == found.st_uid
-    return place.socket if own and stat.S_ISSOCK(found.st_mode) else None
+    own = owner == os.geteuid() == found.st_uid == private.st_uid
+    closed = stat.S_ISDIR(private.st_mode) and not private.st_mode & 0o077
+    return place.socket if own and closed and is_its_own and stat.S_ISSOCK(found.st_mode) else None

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
@@ -18,6 +19,9 @@ from robot.printable import printable, printable_json
 
 FORMULAS = frozenset("=+-@＝＋－＠")
 """A cell that begins with one is worked out by spreadsheets; the wide ones by some."""
+_SPLIT_AT = re.compile(rf"([;\t|]['\"\s]*)([{re.escape(''.join(sorted(FORMULAS)))}])")
+"""Where a cell ends, and another one begins, to a spreadsheet of a country where lists are split at
+semicolons, whatever is quoted here."""
 POSE = ("x_m", "y_m", "z_m", "qw", "qx", "qy", "qz")
 
 
@@ -59,7 +63,8 @@ def tables(
 
 
 def _json(data: object) -> str:
-    return printable_json(msgspec.json.encode(data).decode())
+    text = printable_json(msgspec.json.encode(data).decode())
+    return _SPLIT_AT.sub(lambda found: f"{found[1]}\\u{ord(found[2]):04x}", text)  # the same JSON
 
 
 def _stood(moments: Iterable[Moment], motors: int) -> Iterator[Sequence[Any]]:
@@ -103,6 +108,7 @@ def _cell(value: Any) -> Any:
         return value
     text = printable(value)
     first = text.lstrip()[:1]
+    text = _SPLIT_AT.sub(r"\1'\2", text)
     return f"'{text}" if first in FORMULAS or text[:1] in ("\t", "\n") else text
 
 

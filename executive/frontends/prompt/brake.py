@@ -17,6 +17,7 @@ from executive.frontends.prompt.halt import Halt
 from executive.frontends.prompt.robot import AtWork
 from executive.frontends.prompt.stance import standing
 from intents.dialogue import Dialogue
+from intents.parser import asks_to_stop
 from intents.stopping import is_stay, is_stop
 
 if TYPE_CHECKING:
@@ -58,8 +59,10 @@ class Brake:
 
     def is_cry(self, text: str) -> bool:
         """Whether a line is a cry to stop; a wish to stay is one to a robot that is at work."""
-        busy = self._robot.busy
-        return is_stop(text, at_rest=not busy) or (busy and is_stay(text))
+        if not self._robot.busy:
+            return is_stop(text, at_rest=True)
+        read = self._dialogue.vocabulary
+        return is_stop(text) or is_stay(text) or asks_to_stop(text, read)
 
     def stop(self, why: str) -> None:
         """Bring the robot to a stand and end all jobs, be silent, and say so."""

@@ -126,3 +126,71 @@ def test_wishes_to_stay_are_told(text: str) -> None:
 )  # fmt: skip
 def test_tasks_and_questions_are_no_wishes_to_stay(text: str) -> None:
     assert not is_stay(text)
+
+
+UNMARKED = (
+    "what are you doing stop", "what the hell stop", "are you crazy stop", "are you deaf stop now",
+    "did you hear me stop", "can you not hear me stop please", "why are you still moving stop",
+    "how many times do I have to say stop", "I say STOP!", "I say stop", "I would like you to stop",
+    "we need you to stop", "the robot is about to hit the child please make it stop right now",
+    "walk to the door and stop!", "abort abort", "ABORT! abort!", "cut the power", "motors off",
+    "kill the motors now", "turn the motors off", "please shut off the power", "shutdown",
+    "dnt move", "donot move", "don;t move", "do nt move", "get off me", "✋", "⛔", "⛔ no",
+    "atop!", "stoop!",
+)  # fmt: skip
+ORDINARY = (
+    "why did you stop", "what makes you stop", "how do you stop", "how can I stop",
+    "where is the bus stop", "where does the bus stop", "when will you stop",
+    "who told you to stop",
+    "are you going to stop", "what is a full stop", "what should I say to make you stop",
+    "how do I make it stop", "do not make it stop", "what happens if I say stop",
+    "I don't want you to stop", "unstoppable", "put it atop the shelf",
+    "stoop down", "the salt", "halo", "hold the hat", "cut the power cable", "cut the bread",
+    "switch the lights off", "why are the motors off", "what does shutdown mean", "high five ✋",
+    "take the spot", "go to the sofa and then stop", "how does the train stop",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("cry", UNMARKED)
+@pytest.mark.parametrize("at_rest", [False, True])
+def test_cries_without_a_sign_before_them_or_in_other_words_are_heard(
+    cry: str, at_rest: bool
+) -> None:
+    assert is_stop(cry, at_rest=at_rest)
+
+
+@pytest.mark.parametrize("text", ORDINARY)
+def test_what_only_speaks_of_stopping_is_none(text: str) -> None:
+    assert not is_stop(text)
+
+
+def test_and_stop_at_the_end_is_a_cry_to_a_robot_on_its_way_only() -> None:
+    assert is_stop("go to the sofa and stop")
+    assert not is_stop("go to the sofa and stop", at_rest=True)
+
+
+KEYS = ("qwertyuiop", "asdfghjkl", "zxcvbnm")
+
+
+@given(
+    st.sampled_from(["stop", "halt", "freeze"]),
+    st.integers(0, 5),
+    st.sampled_from(["beside", "swapped", "doubled"]),
+    st.integers(0, 1),
+    st.sampled_from(["", "!", " now", " please"]),
+)
+def test_slips_of_the_fingers_are_heard(
+    word: str, at: int, slip: str, side: int, after: str
+) -> None:
+    at %= len(word)
+    keys = next(row for row in KEYS if word[at] in row)
+    left, _, right = keys.partition(word[at])
+    near = (left[-1:], right[:1])[side]
+    if slip == "beside":
+        said = word[:at] + (near or word[at]) + word[at + 1 :]
+    elif slip == "swapped":
+        said = word[:at] + word[at : at + 2][::-1] + word[at + 2 :]
+    else:
+        said = word[: at + 1] + word[at:]
+    own = said in ("atop", "stoop") and after != "!"  # words of English
+    assert own or is_stop(said + after), said

@@ -98,3 +98,11 @@ def test_walls_are_only_looked_at_where_they_may_be_near(monkeypatch):
     assert placing.clear_of(big, (10.0, 2.3), 0.3) == "the north wall of the r2"
     assert placing.clear_of(big, (12.4, 0.0), 0.3) == "the east wall of the r2"
     assert set(looked) <= {"r2", "r3"}
+
+
+@pytest.mark.parametrize("group", ["furniture", "rooms", "objects", "people"])
+def test_more_than_ten_mistaken_entries_are_told_like_any(tmp_path, group):
+    path = tmp_path / "many.yaml"
+    path.write_text(f"name: many\n{group}: [{', '.join(['0'] * 12)}]\n")
+    with pytest.raises(ConfigError, match=group):
+        world.load(path)

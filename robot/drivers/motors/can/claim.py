@@ -2,22 +2,36 @@
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
-import socket
-from collections.abc import Iterable
+import os
+import stat
+import struct
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from pathlib import Path
+
+from robot.errors import DriverError
+from robot.user_state import user_state_folder
+
+FILE = "claims.lock"
+_FLAGS = os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW
+_FLOCK = struct.Struct("hhqqi4x")
+"""`struct flock` of Linux: type, whence, start, length, process."""
 
 
 class Claim:
     """Of several channels, all of them or none.
 
-    A name in the abstract namespace of UNIX sockets is bound by one socket at a time, in the same
-    network namespace that CAN interfaces are in, and is free when its process ends.
+    A lock on a byte of a file in a folder that only this user enters, a byte for each channel:
+    nobody else can hold it, or be faster when its owner dies. Another user's program is not kept
+    off by it. (The lock is of the open file, fcntl(2) F_OFD_SETLK: it ends with its process.)
     """
 
     def __init__(self, channels: Iterable[str]) -> None:
         """Nothing is claimed yet."""
-        self._names = [f"\0humanoid-can/{_short(channel)}" for channel in sorted(set(channels))]
-        self._held: list[socket.socket] = []
+        self._bytes = sorted(map(_byte, set(channels)))
+        self._held: list[int] = []
 
     @property
     def is_held(self) -> bool:
@@ -25,17 +39,28 @@ class Claim:
         return bool(self._held)
 
     def take(self) -> bool:
-        """Claim them; False while somebody else has any of them."""
+        """Claim them; False while somebody else has any of them.
+
+        Raises:
+            DriverError: this user has no folder for the locks.
+        """
         if self._held:
             return True
-        for name in self._names:
-            one = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
-            self._held.append(one)
+        folders = list(_folders())
+        if not folders:
+            raise DriverError(
+                "there is no folder for the claim of a bus; give the user a home or a session"
+            )
+        for folder in folders:
             try:
-                one.bind(name)
-            except OSError:
+                self._held.append(os.open(folder / FILE, _FLAGS, 0o600))
+            except OSError as error:
                 self.release()
-                return False
+                raise DriverError(f"{folder / FILE}: {error.strerror}") from None
+            for one in self._bytes:
+                if not _lock(self._held[-1], one):
+                    self.release()
+                    return False
         return True
 
     def is_free(self) -> bool:
@@ -49,10 +74,35 @@ class Claim:
     def release(self) -> None:
         """Let go of them."""
         for one in self._held:
-            one.close()
+            os.close(one)
         self._held.clear()
 
 
-def _short(channel: str) -> str:
-    """A name has 107 bytes, and a channel may be a path."""
-    return hashlib.blake2b(channel.encode(), digest_size=16).hexdigest()
+def _folders() -> Iterator[Path]:
+    """Where locks lie: all of them are taken, for not every program of a user has both folders."""
+    state = user_state_folder()
+    bases = [Path(f"/run/user/{os.geteuid()}/humanoid"), *([state] if state else [])]
+    for base in bases:
+        folder = base / "can"
+        with suppress(OSError):
+            if not base.parent.is_dir() and base is not state:
+                continue
+            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            found = folder.lstat()
+            own = found.st_uid == os.geteuid() and stat.S_ISDIR(found.st_mode)
+            if own and not found.st_mode & 0o077:
+                yield folder
+
+
+def _byte(channel: str) -> int:
+    """Which byte stands for a channel: of so many that no two channels share one."""
+    return int.from_bytes(hashlib.blake2b(channel.encode(), digest_size=8).digest()) >> 2
+
+
+def _lock(file: int, byte: int) -> bool:
+    """Lock a byte of an open file, whether it is there or not; False if another one has it."""
+    try:
+        fcntl.fcntl(file, fcntl.F_OFD_SETLK, _FLOCK.pack(fcntl.F_WRLCK, os.SEEK_SET, byte, 1, 0))
+    except OSError:
+        return False
+    return True

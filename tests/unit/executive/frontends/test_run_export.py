@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import itertools
 import json
+import re
 
 import msgspec
 import mujoco
@@ -12,6 +13,7 @@ import numpy as np
 import pytest
 
 from executive.frontends.dump.command import Asked, dump
+from executive.frontends.dump.tables import FORMULAS
 from executive.journal import journal, motion
 from executive.journal.motion import Moment
 from robot.errors import ConfigError
@@ -145,6 +147,7 @@ def test_tables_hold_every_moment_and_event(run, tmp_path, kind):
 
 HOSTILE = (
     "=cmd|' /C calc'!A0", "@SUM(1+1)", "+1", "-1", "\t=1", "\r=1", " =1", "\n=1", "＝1",
+    "cup;=1+1", "cup; =1", "cup;\"@SUM(1)", "a;b;-1;+1", "cup|=1",
     "\x1b]0;owned\x07", "a\u202eb", "a\u200bb", "\x9b31m",
 )  # fmt: skip
 
@@ -163,6 +166,8 @@ def test_no_cell_of_a_csv_is_worked_out_or_obeyed(text, run, tmp_path):
         for row in csv.reader(path.open(newline="")):
             for cell in row:
                 assert cell[:1] not in "=+-@\t\r\n＝" or cell == "" or float(cell) < 0
+                for part in re.split("[;|\t]", cell)[1:]:  # as a spreadsheet elsewhere splits it
+                    assert part.strip(" '\"")[:1] not in FORMULAS or "'" in part[:3], cell
     assert _csv(tmp_path / "out" / "motion.csv")[-1]["base_z_m"] == "-1.5"
     assert json.loads(_csv(tmp_path / "out" / "events.csv")[-1]["data"])[text] == text
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import shutil
 import socket
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -12,7 +13,7 @@ import msgspec
 import pytest
 
 from executive.frontends.console import steering as steerings
-from executive.frontends.console.desk import FILE, SOCKET, Order, Place
+from executive.frontends.console.desk import FILE, OF, SOCKET, Desk, Order, Place, of
 from executive.frontends.console.steering import Steering
 from robot.bringup import flags, mailbox
 from tests.fakes.waiting import HANG_S
@@ -34,6 +35,9 @@ class Executive:
         place = os.open(run / FILE, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
         os.write(place, msgspec.json.encode(Place(socket=str(path))))
         os.close(place)
+        whose = os.open(private / OF, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
+        os.write(whose, msgspec.json.encode(of(run)))
+        os.close(whose)
 
     async def __aenter__(self):
         self._server = await asyncio.start_unix_server(self._serve, sock=self._listening)
@@ -188,3 +192,47 @@ def test_a_stop_passes_all_that_was_said_before(folders):
             assert len(executive.told) == 2
 
     asyncio.run(pressed())
+
+
+@pytest.mark.parametrize("tampered", ["copied", "another socket", "open to others", "no word"])
+def test_a_run_that_names_what_is_not_its_own_desk_reaches_nobody(folders, tmp_path, tampered):
+    run, private = folders
+    shown = run
+
+    async def pressed():
+        nonlocal shown
+        async with Executive(run, private) as executive:
+            if tampered == "copied":  # somebody's archive, unpacked beside a live run
+                shown = tmp_path / "unpacked"
+                shutil.copytree(run, shown)
+            elif tampered == "another socket":
+                (private / SOCKET).rename(private / "agent.sock")
+                place = Place(socket=str(private / "agent.sock"))
+                (run / FILE).write_bytes(msgspec.json.encode(place))
+            elif tampered == "open to others":
+                private.chmod(0o755)
+            else:
+                (private / OF).unlink()
+            async with steering(shown) as steered:
+                await asyncio.sleep(0.1)
+                assert not steered.open
+                assert not steered.reaches
+                assert not steered.send(Order(line="my secret sentence"))
+            assert not executive.told
+
+    asyncio.run(pressed())
+
+
+def test_a_real_desk_is_found_by_its_own_run_alone(folders, tmp_path):
+    run, private = folders
+    other = tmp_path / "other"
+
+    class Told:
+        def __init__(self):
+            self.out, self.stops, self.asked = lambda _: None, 0, None
+
+    with Desk(Told(), folder=run, private=private):  # type: ignore[arg-type]
+        shutil.copytree(run, other)
+        assert steerings._place(run)
+        assert steerings._place(other) is None
+    assert not (private / OF).exists()
