@@ -107,6 +107,7 @@ def do(options: Do) -> None:
       humanoid do "bring the bottle to the table" --world my_house.yaml --seed 7
 
     Ctrl-C finishes the step, stands, and leaves; a second one lets the motors damp at once.
+    One that comes before the robot is started ends it at once, with status 1 as well.
     """
     if not options.fast:
         raise typer.Exit(launch(FrontEnd.DO, options, as_json=options.as_json))
