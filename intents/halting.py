@@ -47,7 +47,8 @@ _TO_THINGS = (
 )
 """Harm to what is carried; where somebody may be hurt, to stop is always a fair guess."""
 _CARE = re.compile(
-    r"(?:^|[\s,;.!?–-]+)(?:(?:and|but|so|just|please|pls|plz|be careful|careful|mind)[\s,]+)*"
+    r"(?:^|(?<![\s,;.!?–-])[\s,;.!?–-]++)"
+    r"(?:(?:and|but|so|just|please|pls|plz|be careful|careful|mind)[\s,]{1,3}){0,4}"
     r"(?:do ?n[o'’]?t|do not|dnt|never|try not to|(?:so )?you (?:do ?n[o'’]?t|do not)|without)\s+"
     rf"(?:(?:you|ever|dare|go and|to)\s+){{0,2}}{_TO_THINGS}\b[^,;.!?\n]*",
     re.IGNORECASE,
