@@ -37,7 +37,7 @@ def main() -> None:
 
 def _stopped(_number: int, _frame: FrameType | None) -> None:
     """Ctrl-C while it loads: nothing has begun, and a half loaded library would say odd things."""
-    os.write(2, b"Stopped on request.\n")
+    os.write(2, b"Stopped on request.\n  nothing was started, and nothing has moved\n")
     os._exit(1)
 
 

@@ -10,11 +10,12 @@ import signal
 import sys
 import traceback
 from collections.abc import Callable, Iterable
+from contextlib import nullcontext
 from pathlib import Path
 from types import FrameType
 
 from executive.frontends import streams
-from executive.frontends.exit import ended_by
+from executive.frontends.exit import before_it_moves, ended_by
 from executive.frontends.launching import FrontEnd, PlainFrontEnd
 from executive.frontends.output import say, tell_of_mistakes
 from robot.bringup import mailbox
@@ -74,7 +75,8 @@ def main(
     signal.signal(signal.SIGTSTP, signal.SIG_IGN)  # the launcher answers it
     folder = Path(private)
     try:
-        run, front = _turn(folder, int(number), load)
+        with before_it_moves() if int(number) == 0 else nullcontext():
+            run, front = _turn(folder, int(number), load)
         return run(Handle(folder, deaths=front.deaths), front.options)
     except (RobotError, KeyboardInterrupt) as error:
         return ended_by(error, as_json=bool(_read(folder).options.get("as_json")))

@@ -33,7 +33,7 @@ from intents.goals import (
     each,
 )
 from intents.grammar import SHALL_NOT
-from intents.halting import besides
+from intents.halting import besides, without_care
 from intents.in_hand import which_in_hand
 from intents.outcomes import YES_OR_NO, Goals, Outcome, Question, Refusal, Reply, Turn
 from intents.parser import Fallback, hear
@@ -48,6 +48,7 @@ from intents.vocabulary import Vocabulary
 
 __all__ = ["Context", "Dialogue"]
 
+TAKES_CARE = "I take care in any case; I did not get what I am to do."
 MAX_REPEATS = 2
 """A question is asked again so often; then it is dropped and the refusal told."""
 _WHERE = re.compile(
@@ -349,6 +350,11 @@ class Dialogue:
         outcome, after = swapped or hear(
             text, self.vocabulary, context=before, fallback=self.fallback
         )
+        if _ends_it(outcome) and (careful := without_care(text)) != text:
+            # nobody who says "dont drop it" wants it to end, unless the rest says so
+            outcome, after = hear(careful, self.vocabulary, context=before, fallback=self.fallback)
+            if _ends_it(outcome) and isinstance(outcome, Question):
+                outcome, after = Refusal(reason=TAKES_CARE), before
         if state.doing and isinstance(outcome, Question) and outcome.goals == (Stop(),):
             outcome = Goals(goals=(Stop(),))  # whatever it hangs on: to stop at once is safe
         if isinstance(outcome, Refusal) and opened and self._repeats < MAX_REPEATS:
@@ -467,6 +473,11 @@ def _known(said: str, goal: Goal, state: RobotState) -> str:
 def _sought(said: str, goal: Goal) -> ObjectQuery | None:
     """What it was asked where it is; "find it" is a wish to have it looked for."""
     return goal.object if isinstance(goal, Find) and _WHERE.search(said) else None
+
+
+def _ends_it(outcome: Outcome) -> bool:
+    """Whether all that is understood, or offered, is to end what is being done."""
+    return not isinstance(outcome, Refusal) and outcome.goals in ((Cancel(),), (Stop(),))
 
 
 def _is_choice(outcome: Turn | None) -> bool:

@@ -41,6 +41,19 @@ _HARMING = (
     r"scratching|crushing|tipping|slipping|leaking|squashing|kicking)\b"
 )
 
+_TO_THINGS = (
+    r"(?:drop(?:ping)?|break(?:ing)?|spill(?:ing)?|los(?:e|ing)|damag(?:e|ing)|smash(?:ing)?|"
+    r"squash(?:ing)?|scratch(?:ing)?|tip(?:ping)?|topp(?:le|ling))"
+)
+"""Harm to what is carried; where somebody may be hurt, to stop is always a fair guess."""
+_CARE = re.compile(
+    r"(?:^|(?<![\s,;.!?–-])[\s,;.!?–-]++)"
+    r"(?:(?:and|but|so|just|please|pls|plz|be careful|careful|mind)[\s,]{1,3}){0,4}"
+    r"(?:do ?n[o'’]?t|do not|dnt|never|try not to|(?:so )?you (?:do ?n[o'’]?t|do not)|without)\s+"
+    rf"(?:(?:you|ever|dare|go and|to)\s+){{0,2}}{_TO_THINGS}\b[^,;.!?\n]*",
+    re.IGNORECASE,
+)
+"""And *dont drop it*, without *spilling it*: what the robot takes care of in any case."""
 _SIGHTS = (
     r"(?:child|kid|baby|person|somebody|someone|dog|cat|man|woman|girl|boy|toddler|animal|pet|hole|"
     r"step|stairs?|cable|wire|puddle)"
@@ -143,6 +156,11 @@ def is_halt(text: str) -> bool:
     while clauses and _is_address(clauses[0], last=len(clauses) == 1):
         del clauses[0]
     return bool(clauses) and _is_cry(clauses[0])
+
+
+def without_care(text: str) -> str:
+    """A text without what it asks to take care of: *the red one, please*, and dont drop it."""
+    return _CARE.sub("", text)
 
 
 def besides(text: str) -> str:

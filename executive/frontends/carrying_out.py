@@ -17,6 +17,7 @@ from executive.frontends.console.beside import shown as viewed
 from executive.frontends.driving import chosen
 from executive.frontends.dump.record import recorded
 from executive.frontends.dump.writer import along
+from executive.frontends.exit import before_it_moves
 from executive.frontends.hooks import notified
 from executive.frontends.launching import hear_people, under_way
 from executive.frontends.options import Seeded, Shown, Viewed, Voiced
@@ -82,7 +83,9 @@ def carry_out(
     Raises:
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
-    prepared = _begun(handle) or prepare()
+    again = under_way(handle) is not None
+    with nullcontext() if again else before_it_moves():
+        prepared = _begun(handle) or prepare()
     if isinstance(prepared, int):
         return prepared
     with speaking.opened(wanted=voiced.aloud, model=voiced.voice_model) as speech:

@@ -15,7 +15,7 @@ import typer
 from executive.frontends import streams
 from executive.frontends.console import cli as consoles
 from executive.frontends.dump import cli as dumps
-from executive.frontends.exit import ended_by
+from executive.frontends.exit import before_it_moves, ended_by
 from executive.frontends.film import cli as films
 from executive.frontends.launching import FrontEnd, here, launch
 from executive.frontends.listening.cli import listen
@@ -107,10 +107,12 @@ def do(options: Do) -> None:
       humanoid do "bring the bottle to the table" --world my_house.yaml --seed 7
 
     Ctrl-C finishes the step, stands, and leaves; a second one lets the motors damp at once.
+    One that comes before the robot is started ends it at once, with status 1 as well.
     """
     if not options.fast:
         raise typer.Exit(launch(FrontEnd.DO, options, as_json=options.as_json))
-    from executive.frontends.do import in_executive
+    with before_it_moves():
+        from executive.frontends.do import in_executive
 
     raise typer.Exit(here(in_executive, options))
 
@@ -348,6 +350,12 @@ def _whole(status: str | int | None) -> str | int | None:
     return status or (int(ExitStatus.INVALID) if product else status)
 
 
+def _wish_in(ended: SystemExit) -> KeyboardInterrupt | None:
+    """The Ctrl-C that typer ends with, which it makes a status of its own without a word."""
+    wish = ended.__context__.__cause__ if ended.__context__ is not None else None
+    return wish if isinstance(wish, KeyboardInterrupt) else None
+
+
 def main() -> None:
     """Entry point of `humanoid`: every error ends in a sentence and an exit status."""
     # Python puts the current folder before its own library in what is started as a module or as
@@ -363,6 +371,9 @@ def main() -> None:
         # what is completed needs no defaults, and a file that is wrong is no business of Tab's
         app(prog_name="humanoid", default_map=None if completes else defaults)
     except SystemExit as ended:
+        wish = _wish_in(ended)
+        if wish is not None and not completes:
+            sys.exit(ended_by(wish, as_json="--json" in sys.argv))
         sys.exit(_whole(ended.code))
     except (Exception, KeyboardInterrupt) as error:  # the last words must not be a bare traceback
         if completes:  # a shell's line is no place for words

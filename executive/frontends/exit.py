@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import errno
 import traceback
+from collections.abc import Generator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -11,11 +13,24 @@ import msgspec
 from executive.frontends import namesakes
 from executive.frontends.output import say, write_json
 from executive.journal import failures
-from robot.errors import ConfigError, RobotError
+from robot.errors import ConfigError, Problem, RobotError
 from robot.exit_status import ExitStatus
 
 if TYPE_CHECKING:
     from executive.meaning.request import Refused
+
+
+class NothingMoved(KeyboardInterrupt):
+    """Ctrl-C that came before a robot was started."""
+
+
+@contextmanager
+def before_it_moves() -> Generator[None]:
+    """Nothing in the block starts a robot: Ctrl-C inside it is told as such."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        raise NothingMoved from None
 
 
 USED_UP = (errno.EAGAIN, errno.ENOMEM, errno.EMFILE, errno.ENFILE, errno.ENOSPC, errno.EDQUOT)
@@ -28,13 +43,17 @@ def ended_by(error: BaseException, *, as_json: bool) -> int:
     """Say what went wrong and what to do, as JSON where that was asked for; the exit status."""
     if isinstance(error, ConfigError):
         problems = [str(problem) for problem in error.problems]
-        cure = "correct that, then try again"
+        cure = _cure(error.problems, as_json=as_json)
         return last_words("Not done:", problems, cure, status=ExitStatus.INVALID, as_json=as_json)
     if isinstance(error, RobotError):
         cure = "try again; humanoid doctor says whether something is missing"
         return last_words("Broken:", [str(error)], cure, status=ExitStatus.BROKEN, as_json=as_json)
     if isinstance(error, KeyboardInterrupt):
-        return last_words("Stopped on request.", [], "", status=ExitStatus.FAILED, as_json=as_json)
+        lines = ["nothing was started, and nothing has moved"]
+        lines = lines if isinstance(error, NothingMoved) else []
+        return last_words(
+            "Stopped on request.", lines, "", status=ExitStatus.FAILED, as_json=as_json
+        )
     if isinstance(error, OSError) and error.filename is not None:
         # Not what was foreseen, but of the machine and not of this software all the same.
         lines = [f"{error.filename}: {error.strerror}"]
@@ -50,6 +69,14 @@ def ended_by(error: BaseException, *, as_json: bool) -> int:
     lines = "".join(traceback.format_exception(error)).splitlines()
     cure = "that is a mistake in this software: report the lines above, with the run folder"
     return last_words("Broken:", lines, cure, status=ExitStatus.BROKEN, as_json=as_json)
+
+
+def _cure(problems: list[Problem], *, as_json: bool) -> str:
+    """What to do where each problem does not say so itself, as one outside any file does."""
+    own = [one.suggestion for one in problems if one.suggestion and one.file is None]
+    if len(own) < len(problems):
+        return "correct that, then try again"
+    return "; ".join(dict.fromkeys(own)) if as_json else ""  # as text it stands behind each
 
 
 def _used_up(error: BaseException) -> str:

@@ -174,6 +174,14 @@ def decode(line: bytes) -> Event | None:
     return Event(n, float(t_s), kind, flat) if sane else None
 
 
+PUT_BACK = "put the file itself in the place of the link"
+
+
+def is_linked(folder: Path) -> bool:
+    """Whether a run's journal is only a link, which is read but never written through."""
+    return folder.is_dir() and (folder / FILE).is_symlink()
+
+
 def lines(path: Path) -> Iterator[bytes]:
     """The lines of a journal, with their ends, one at a time; one that is too long is cut.
 

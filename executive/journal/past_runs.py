@@ -91,6 +91,7 @@ def find(name: str | None, *, base: Path | None = None) -> Path:
     if name is not None and (Path(name) / FILE).is_file():
         return Path(name)
     known = runs(base)
+    _check_journal(name, known)
     if not known:
         cure = 'begin with: humanoid do "squat for three seconds" --fast'
         raise ConfigError([Problem(f"there is no run in {base or HERE}/", suggestion=cure)])
@@ -103,6 +104,14 @@ def find(name: str | None, *, base: Path | None = None) -> Path:
     if hint.startswith("valid"):
         hint = f"the newest is {known[-1].name!r}; `humanoid history` shows all"
     raise ConfigError([Problem(f"there is no run {name!r}", suggestion=hint)])
+
+
+def _check_journal(name: str | None, known: list[Path]) -> None:
+    """Raise ConfigError if only a folder is of that name, from which the journal is gone."""
+    there = name is not None and name.strip("./") and Path(name).is_dir()
+    if name and there and not any(name in folder.name for folder in known):
+        cure = "put it back, or take another run: `humanoid history` shows all"
+        raise ConfigError([Problem(f"the folder {name!r} holds no {FILE}", suggestion=cure)])
 
 
 def history(base: Path | None = None) -> Iterator[Past]:

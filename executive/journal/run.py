@@ -234,6 +234,12 @@ class Run(msgspec.Struct, kw_only=True):
         """Whether somebody was there and asked for nothing."""
         return bool(self.about.get("attended")) and not self.task.attempts and not self.task.state
 
+    @property
+    def asked(self) -> bool:
+        """Whether a run began, and somebody asked for something in it: what can be gone on with."""
+        requested = any(line.kind == "request" for line in self.log)
+        return bool(self.about) and (requested or bool(self.jobs or self.task.attempts))
+
     def walk(
         self, roots: Sequence[int] | None = None, *, t_s: float = math.inf
     ) -> Iterator[tuple[int, Node]]:

@@ -10,7 +10,7 @@ from typing import Literal
 
 import msgspec
 
-from executive.journal import failures, reader, words
+from executive.journal import failures, journal, reader, words
 from executive.journal.run import Attempt, LogLine, Reason, Run, Task, Trouble
 from robot.errors import ConfigError
 
@@ -20,7 +20,9 @@ MOST_NOTES, MOST_ATTEMPTS = 8, 6
 
 IDLE = "Nothing was asked for."
 
-Status = Literal["done", "failed", "stopped", "going on", "cut off", "idle"]
+Status = Literal["done", "failed", "stopped", "going on", "cut off", "idle", "unreadable"]
+
+ANEW = "ask for it anew with `humanoid do`"
 
 
 class Explanation(msgspec.Struct, frozen=True, kw_only=True):
@@ -48,10 +50,11 @@ def told(folder: Path, *, job: int | None = None, live: bool = False) -> Explana
         ConfigError: there is no journal, or no such job in it.
     """
     run = reader.read(folder)
+    linked = journal.is_linked(folder)
     known = [one.number for one in run.jobs]
     if job is None:
         if len(known) < 2:
-            return why(run, live=live)
+            return why(run, live=live, linked=linked)
         job = max(run.jobs, key=lambda one: one.weight).number
     elif job not in known:
         raise ConfigError(f"there is no job {job}; there is: {words.listed(map(str, known))}")
@@ -59,15 +62,16 @@ def told(folder: Path, *, job: int | None = None, live: bool = False) -> Explana
     if {state for _, state in asked.states} <= {"waiting"}:
         verdict = f"It has not begun: it waits for its turn. Asked for: {asked.text}"
         return Explanation(status="idle", verdict=verdict, lines=(verdict,))
-    return why(reader.read(folder, job=job), live=live)
+    return why(reader.read(folder, job=job), live=live, linked=linked)
 
 
-def why(run: Run, *, live: bool = False) -> Explanation:
+def why(run: Run, *, live: bool = False, linked: bool = False) -> Explanation:
     """Explain the newest task of a run.
 
     Args:
         run: what happened.
         live: the run is still under way, so that a journal without an end is nothing special.
+        linked: its journal is a link, which may be read but not gone on with.
     """
     state = run.task.state
     if state == "done":
@@ -78,7 +82,9 @@ def why(run: Run, *, live: bool = False) -> Explanation:
         return _failed(run)
     if run.idle:
         return Explanation(status="idle", verdict=IDLE, lines=(IDLE,))
-    return _going_on(run) if live else _cut_off(run)
+    if live:
+        return _going_on(run)
+    return _cut_off(run, linked=linked) if run.events else _unreadable(run)
 
 
 # --- how it ended ------------------------------------------------------------------------------
@@ -124,9 +130,20 @@ def _going_on(run: Run) -> Explanation:
     return _explained("going on", verdict, run, lines)
 
 
-def _cut_off(run: Run) -> Explanation:
+def _unreadable(run: Run) -> Explanation:
+    """Of a journal without a single event, as a cut or an edit may leave it."""
+    holds = "nothing that can be read" if run.unreadable or run.cut else "nothing: it is empty"
+    lines = failures.advice(ANEW, end=".")
+    return _explained("unreadable", f"The journal holds {holds}.", run, lines)
+
+
+def _cut_off(run: Run, *, linked: bool) -> Explanation:
     verdict = f"The journal ends at {run.end_s:.1f} s without an outcome: it was cut off."
     cure = "go on where it was with `humanoid resume`, or see logs/ in its folder"
+    if run.unreadable or run.missing or not run.asked:  # as `humanoid resume` refuses
+        cure = ANEW
+    elif linked:
+        cure = f"{journal.PUT_BACK}, then go on with `humanoid resume`"
     lines = _doing(run) + _trouble_so_far(run.task) + failures.advice(cure, end=".")
     return _explained("cut off", verdict, run, lines)
 
@@ -136,7 +153,13 @@ def _explained(status: Status, verdict: str, run: Run, lines: list[str]) -> Expl
     if run.task.text:
         head.append(f"Asked for: {run.task.text}{_setting(run)}")
     if run.missing:
-        lines.append(f"({run.missing} events are missing from the journal: the disk was full.)")
+        lines.append(
+            f"({run.missing} events are missing from the journal: the disk was full, "
+            "or the file was changed.)"
+        )
+    if run.unreadable:
+        count = f"{run.unreadable} line{'' if run.unreadable == 1 else 's'}"
+        lines.append(f"({count} of the journal cannot be read, from line {run.unreadable_line}.)")
     return Explanation(status=status, verdict=verdict, lines=(*head, *lines))
 
 

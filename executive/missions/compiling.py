@@ -129,11 +129,15 @@ class Compiler:
         if key is None:
             self._look_inside(node, scope)
             return None
+        written = node
         record = Reader(self.problems, scope.fill).record(node, s.STEPS[key])
         if record is None:
             node = Reader(Problems(), scope.fill).readable(node, s.STEPS[key])
             record = Reader(Problems(), scope.fill).record(node, s.STEPS[key])
         if record is None:
+            slots = written.get(key)
+            if key in s.GOALS and slots is not None:
+                self._slots.look(slots, scope.silent().fill)
             self._look_inside(node, scope)
             return None
         before = self._hands

@@ -155,7 +155,7 @@ class Names:
             goal = outcome.goals[0]
             if isinstance(goal, goals.Pick):
                 return goal.object
-        if isinstance(outcome, Question):
+        if isinstance(outcome, Question) and outcome.choices:  # else it was not even heard of
             raise Wrong(f"{text!r} is not clear", outcome.question)
         return None
 

@@ -54,6 +54,19 @@ class Slots:
             if isinstance(text, str) and where.kind == "map":
                 look_up(_at(where, key.rstrip("_"), text), self._problems)
 
+    def look(self, where: Node, fill: Callable[[Node], Node | None]) -> None:
+        """Look every name up in a step that could not be read.
+
+        Args:
+            where: the mapping of its slots.
+            fill: fills parameters in; None where one is wrong, which is noted already.
+        """
+        for key, look_up in self._looks.items():
+            slot = where.get(key.rstrip("_")) if where.kind == "map" else None
+            named = fill(slot) if slot is not None and slot.kind == "text" else None
+            if named is not None:
+                look_up(named, self._problems)
+
     def _receiver(self, node: Node, problems: Problems) -> object:
         is_person = self._names.is_person(node.text) and not self._names.is_place(node.text)
         return None if is_person else self._names.place(node, problems)

@@ -53,6 +53,10 @@ class Scope:
             return Scope(self.bound, self._problems, wrong={*self._wrong, name})
         return Scope({**self.bound, name: value}, self._problems, wrong=self._wrong - {name})
 
+    def silent(self) -> Scope:
+        """The same, which notes nothing."""
+        return Scope(self.bound, Problems(), wrong=self._wrong)
+
     def fill(self, node: Node) -> Node | None:
         """A text with its parameters filled in; a text that is only a parameter gets its type."""
         if not self._is_closed(node):

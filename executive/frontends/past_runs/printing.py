@@ -39,7 +39,7 @@ def why(run: str | None, *, as_json: bool) -> int:
     else:
         say(told.text)
         say(f"({folder})")
-    return ExitStatus.DONE
+    return ExitStatus.INVALID if told.status == "unreadable" else ExitStatus.DONE
 
 
 def history(*, count: int, as_json: bool, everywhere: bool = False) -> int:
@@ -90,7 +90,8 @@ def replay(run: str | None, *, as_json: bool) -> int:
         cure = (
             "that is why it differs, most likely; replay with what it had then."
             if result.changed
-            else "nothing changed that is known of; report it with the run folder."
+            else "nothing changed that is known of: if nobody edited its journal, "
+            "report it with the run folder."
         )
         say("\n".join(failures.advice(cure)))
     return status

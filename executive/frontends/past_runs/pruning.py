@@ -53,7 +53,7 @@ def prune(
         say(f"  {folder}")
     if len(free) > SHOWN:
         say(f"  ... and {len(free) - SHOWN} more")
-    say(f"{len(free)} of {len(known)} runs, {size / 1e6:.1f} MB")
+    say(f"{len(free)} of {_runs(len(known))}, {size / 1e6:.1f} MB")
     if dry_run:
         return ExitStatus.DONE
     if not yes and not _agreed():
@@ -61,8 +61,12 @@ def prune(
         return ExitStatus.FAILED
     kept = [folder for folder in free if not removed(folder)]
     _tell_kept(kept)
-    say(f"Removed: {len(free) - len(kept)} runs.")
+    say(f"Removed: {_runs(len(free) - len(kept))}.")
     return ExitStatus.FAILED if kept else ExitStatus.DONE
+
+
+def _runs(count: int) -> str:
+    return f"{count} run{'' if count == 1 else 's'}"
 
 
 def chosen(

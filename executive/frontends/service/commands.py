@@ -87,6 +87,9 @@ def say_line(name: str | None, text: str, *, wait: bool, as_json: bool) -> int:
     Raises:
         RobotError: the robot does not answer.
     """
+    if not text.strip():
+        cure = "say a sentence, or a command of the prompt"
+        raise ConfigError([Problem("nothing was said", suggestion=cure)])
     place, words, jobs = places.find(name), list[str](), list[int]()
     if len(text) > m.MAX_TEXT and is_stop(text):
         text = "stop"  # which is all that comes of it

@@ -16,6 +16,7 @@ from executive.engine.loop import Interrupts
 from executive.journal import journal
 from executive.journal.files import LineFile
 from executive.journal.journal import CAPACITY, FILE, Journal
+from executive.journal.why import ANEW
 from executive.meaning.request import Setting
 from executive.runs import run_folder, runtimes
 from executive.runs.again import recording, replay
@@ -63,8 +64,7 @@ def check(folder: Path) -> Recording:
         cure = "`humanoid why` says how; ask for it anew with `humanoid do`"
         raise ConfigError([Problem(f"{folder} has ended: nothing is left of it", suggestion=cure)])
     if recorded.submitted is None:
-        cure = "ask for it anew with `humanoid do`"
-        raise ConfigError([Problem(f"{folder}: nothing had begun", suggestion=cure)])
+        raise ConfigError([Problem(f"{folder}: nothing had begun", suggestion=ANEW)])
     return recorded
 
 

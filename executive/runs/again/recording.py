@@ -11,6 +11,7 @@ import msgspec
 
 from executive.journal import journal
 from executive.journal.journal import FILE, Event
+from executive.journal.why import ANEW
 from executive.meaning import request
 from executive.meaning.request import Refused, Setting, Understood
 from executive.meaning.whereabouts import Whereabouts, recalled
@@ -76,16 +77,23 @@ def load(folder: Path) -> Recording:
         ConfigError: if it has no whole journal of this version.
     """
     journal.check_size(folder)
+    if journal.is_linked(folder):
+        raise ConfigError(
+            [Problem(f"{folder}: its journal is a link", suggestion=journal.PUT_BACK)]
+        )
     try:
         data = read_ordinary(folder / FILE, limit=journal.MAX_BYTES, follow_links=False)
     except OSError as error:
         raise ConfigError(f"{folder} holds no journal: {error.strerror}") from error
+    if not data.strip():
+        raise ConfigError([Problem(f"{folder}: its journal is empty", suggestion=ANEW)])
     *lines, rest = data.split(b"\n")
     events = [journal.decode(line) for line in lines]
     whole = [event for event in events if event is not None]
     if not whole or len(whole) < len(lines) or [e.n for e in whole] != list(range(len(whole))):
-        cure = "the disk was full, or the file was changed: only a whole journal can be done again"
-        raise ConfigError([Problem(f"{folder}: events are missing", suggestion=cure)])
+        why = "the disk was full, or the file was changed"
+        problem = f"{folder}: events are missing or cannot be read; {why}"
+        raise ConfigError([Problem(problem, suggestion=ANEW)])
     header = _header(whole[0], folder)
     if whole[0].event != "run" or header.origin is None:
         cure = "do it again with this one"

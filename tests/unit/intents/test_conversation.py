@@ -3,6 +3,7 @@
 import doctest
 
 import pytest
+from msgspec.structs import replace
 
 from intents import dialogue as dialogue_module
 from intents.dialogue import Dialogue
@@ -255,3 +256,28 @@ def test_cancel_as_an_answer_cancels_what_is_being_done() -> None:
 def test_what_is_not_known_is_for_the_robot_to_find_out(said: str) -> None:
     (outcome,) = talk(said, state=RobotState(entities=(KNIFE,)))
     assert isinstance(outcome, Goals)
+
+
+@pytest.mark.parametrize("doing", ["", "bring the green jar to the stove"])
+@pytest.mark.parametrize(
+    "caution",
+    [
+        "and dont drop it",
+        "and don't drop it",
+        "and don’t spill it",
+        "never break it",
+        "without spilling",
+    ],
+)
+def test_a_caution_is_never_taken_for_a_wish_to_give_up(doing, caution) -> None:
+    state = replace(STATE, doing=doing)
+    (turn,) = talk(f"the green one, please, {caution}", state=state)
+    offered = turn.goals if isinstance(turn, Goals | Question) else ()
+    assert not any(isinstance(goal, Cancel | Stop) for goal in offered), turn
+
+
+@pytest.mark.parametrize("said", ["cancel that, and dont drop it", "stop, and dont drop it"])
+def test_who_ends_it_with_a_caution_ends_it(said) -> None:
+    state = replace(STATE, doing="bring the green jar to the stove")
+    (turn,) = talk(said, state=state)
+    assert isinstance(turn, Goals) and turn.goals in ((Cancel(),), (Stop(),)), turn

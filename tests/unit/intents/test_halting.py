@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from intents import halting
 from intents.cries import HALTS, STOPS
 from intents.halting import besides, is_halt
 from intents.letters import bare
@@ -126,3 +127,17 @@ def test_no_text_takes_long(text: str) -> None:
         is_halt(text)
         took_s.append(time.perf_counter() - began)
     assert min(took_s) < 0.005
+
+
+@pytest.mark.parametrize(
+    ("text", "left"),
+    [
+        ("the red one, and dont drop it", "the red one"),
+        ("go on, careful, don’t spill it", "go on"),
+        ("take it without breaking it", "take it"),
+        ("dont go to the table", "dont go to the table"),
+        ("drop it", "drop it"),
+    ],
+)
+def test_what_it_is_to_take_care_of_is_told_from_the_rest(text, left):
+    assert halting.without_care(text) == left

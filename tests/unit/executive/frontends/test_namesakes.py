@@ -60,21 +60,27 @@ STOPPED_WHILE_LOADING = """
 import os, signal, sys
 from executive.__main__ import main
 
+module = sys.argv[1]
+
 class Stops:
     def find_spec(self, name, path=None, target=None):
-        if name == sys.argv[1]:
+        if name == module:
             os.kill(os.getpid(), signal.SIGINT)
 
 sys.meta_path.insert(0, Stops())
+sys.argv[1:] = ["do", "squat", "--fast"]
 main()
 """
 
 
-@pytest.mark.parametrize("module", ["executive.frontends.namesakes", "executive.frontends.cli"])
+@pytest.mark.parametrize(
+    "module", ["executive.frontends.namesakes", "executive.frontends.cli", "executive.frontends.do"]
+)
 def test_ctrl_c_while_it_loads_is_a_wish_to_stop_and_no_traceback(tmp_path, module):
     done = subprocess.run(
         [sys.executable, "-P", "-c", STOPPED_WHILE_LOADING, module],
         env={**OUTSIDE, "PYTHONPATH": str(namesakes.ROOT)},
         cwd=tmp_path, capture_output=True, text=True, check=False,
     )  # fmt: skip
-    assert (done.returncode, done.stdout, done.stderr) == (1, "", "Stopped on request.\n")
+    told = "Stopped on request.\n  nothing was started, and nothing has moved\n"
+    assert (done.returncode, done.stdout, done.stderr) == (1, "", told)

@@ -176,3 +176,17 @@ def test_an_index_that_is_none_adds_nothing(tmp_path, junk):
     index.write_bytes(junk)
     run("mine")
     assert [folder.name for folder in past_runs.runs(places=places.everywhere())] == ["mine"]
+
+
+def test_one_run_is_told_of_as_one(capsys):
+    run("run-0")
+    assert prune(keep=0) == ExitStatus.DONE
+    told = capsys.readouterr().out
+    assert "1 of 1 run," in told and "Removed: 1 run." in told
+
+
+@pytest.mark.parametrize("content", ["", "?\n"])
+def test_of_a_journal_that_holds_nothing_no_answer_is_well(content):
+    """Among the commands on past runs `why` tells the same as `resume` and `replay`: status 2."""
+    (run("run-0") / FILE).write_text(content)
+    assert printing.why("run-0", as_json=False) == ExitStatus.INVALID

@@ -74,3 +74,11 @@ def test_the_header_says_what_a_run_was_about(run):
     (run / "run.json").write_text('{"text": "wave", "seed": 7}')
     (one,) = past_runs.history(run.parent)
     assert (one.text, one.seed, one.ending) == ("wave", 7, "cut off")
+
+
+def test_a_folder_from_which_the_journal_is_gone_is_told_from_one_that_is_not_there(run):
+    (run / "journal.jsonl").unlink()
+    with pytest.raises(ConfigError, match=r"holds no journal\.jsonl"):
+        past_runs.find(str(run), base=run.parent)
+    with pytest.raises(ConfigError, match="there is no run"):
+        past_runs.find(str(run) + "-other", base=run.parent)

@@ -1,5 +1,6 @@
 """The chain from symptom to cause, told from journals of every kind of end."""
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -9,6 +10,7 @@ from executive.journal.journal import Event
 from executive.journal.reader import Reader
 from executive.journal.reader import told as run_of
 from executive.journal.why import Explanation, why
+from executive.journal.why import told as told_of
 
 RUN = ("run", {"text": "pick up the red cup", "runtime": "fast", "world": "kitchen", "seed": 3})
 PICK = {"step": "pick up the red cup", "id": "1"}
@@ -303,3 +305,39 @@ def test_no_journal_breaks_it(events, live):
 )
 def test_measurements_are_told_with_their_units(measured, said):
     assert words.evidence(measured) == said
+
+
+@pytest.mark.parametrize("content", [b"", b"\n\n", b"{", b"what is this\n\xff\xfe\n"])
+def test_a_journal_without_an_event_is_told_as_such_and_not_to_be_resumed(tmp_path, content):
+    (tmp_path / "journal.jsonl").write_bytes(content)
+    told = told_of(tmp_path)
+    assert told.status == "unreadable"
+    assert "humanoid resume" not in told.text and "humanoid do" in told.text
+    unreadable = content.count(b"\n") if content.strip() and b"\n" in content else 0
+    assert ("2 lines of the journal cannot be read, from line 1" in told.text) == bool(unreadable)
+
+
+def cut_off(folder, *damaged: bytes) -> str:
+    """What is told of a journal that was cut off, with some lines more in its middle."""
+    events = [msgspec.json.encode({"n": one.n, "t_s": one.t_s, "event": one.event, **one.data})
+              for one in journal(*FAILS)]  # fmt: skip
+    folder.mkdir()
+    text = b"\n".join([*events[:3], *damaged, *events[3:]]) + b"\n"
+    (folder / "journal.jsonl").write_bytes(text)
+    return told_of(folder).text
+
+
+def test_only_what_can_be_gone_on_with_is_to_be_resumed(tmp_path):
+    whole = cut_off(tmp_path / "whole")
+    assert "with `humanoid resume`" in whole and "cannot be read" not in whole
+    damaged = cut_off(tmp_path / "damaged", b"not json")
+    assert "(1 line of the journal cannot be read, from line 4.)" in damaged
+    assert "humanoid resume" not in damaged and "humanoid do" in damaged
+    linked = tmp_path / "linked"
+    linked.mkdir()
+    (linked / "journal.jsonl").symlink_to(tmp_path / "whole" / "journal.jsonl")
+    assert "in the place of the link, then go on" in told_of(linked).text
+
+
+def test_of_a_run_in_which_nothing_was_begun_nothing_is_to_be_resumed():
+    assert "humanoid resume" not in explained(journal(RUN)).text

@@ -719,3 +719,18 @@ def test_a_world_that_resembles_none_is_told_with_what_needs_no_world(tmp_path):
 def test_the_sides_are_those_of_the_posture(write, slots: str, words: str):
     (problem,) = problems(write(mission(f"  - balance: {slots}\n")))
     assert words in problem
+
+
+def test_a_wrong_parameter_hides_no_wrong_name_beside_it(write):
+    more = "parameters:\n  thing: {type: object, default: red cup}\n"
+    steps = '  - bring: {object: "{{thng}}", to: "cuonter"}\n  - pick: {object: "{{thing}}"}\n'
+    told = problems(write(mission(steps, more)))
+    assert len(told) == 2
+    assert "there is no parameter 'thng'" in told[0]
+    assert "there is no place 'cuonter'" in told[1] and "counter" in told[1]
+
+
+def test_what_is_no_name_is_not_answered_with_a_question(write):
+    steps = "  - pick: {object: red cup}\nexpect:\n  - holding: maybe\n"
+    (told,) = problems(write(mission(steps)))
+    assert "there is no object 'maybe' in this world" in told and "?" not in told

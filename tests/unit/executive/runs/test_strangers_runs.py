@@ -311,3 +311,24 @@ def test_a_link_in_the_place_of_a_journal_is_one_that_is_there(tmp_path):
     (tmp_path / "journal.jsonl").symlink_to(tmp_path / "nowhere")
     with pytest.raises(ConfigError, match="holds a run"):
         run_folder.check_free(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (b"", "its journal is empty"),
+        (b"\n", "its journal is empty"),
+        (b"{", "events are missing or cannot be read"),
+        (SQUAT + b"?\n", "events are missing or cannot be read"),
+        (None, "its journal is a link"),
+    ],
+)
+def test_a_journal_that_cannot_be_done_again_is_told_with_what_ails_it(tmp_path, content, told):
+    file = tmp_path / "journal.jsonl"
+    if content is None:
+        file.symlink_to("elsewhere")
+    else:
+        file.write_bytes(content)
+    with pytest.raises(ConfigError, match=told) as error:
+        recording.load(tmp_path)
+    assert all(problem.suggestion for problem in error.value.problems)

@@ -263,3 +263,9 @@ def test_robots_of_one_name_in_two_folders_are_both_stopped(home, monkeypatch):
             done = stopping.stop_all("kitchen", "stop")
     assert [one.status for one in done] == [ExitStatus.DONE, ExitStatus.DONE]
     assert (first.did, second.did) == (["stop"], ["stop"])
+
+
+@pytest.mark.parametrize("text", ["", " ", "\t\n"])
+def test_a_line_of_nothing_is_refused_with_a_word(text):
+    with pytest.raises(ConfigError, match="nothing was said"):
+        commands.say_line(None, text, wait=False, as_json=False)
