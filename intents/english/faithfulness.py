@@ -75,6 +75,7 @@ _OTHERS = lexicon.words(
 """Words of constructions that the readings know and no list has."""
 _PEOPLE = lexicon.PERSON_NOUNS | frozenset(lexicon.GENDERS)
 _WEIGHING = lexicon.words("weigh weighs weight weights heavy large big little small slender thick")
+_TAKEN_BACK = lexicon.words("no sorry wait actually rather")
 _SPEAKS = (Say, Answer, Report)
 _HANDED = (Gesture, Open, Close, Balance, LookAt)
 
@@ -119,7 +120,9 @@ class _Told:
         plain = " ".join(self.values).replace("_", " ").replace("-", " ").split()
         self.words = {*plain, *map(singular, plain)}
         self.speaks = any(isinstance(goal, _SPEAKS) for goal in goals)
-        self.answers = any(isinstance(goal, Answer) for goal in goals)
+        self.answers = any(isinstance(goal, Answer) for goal in goals) or all(
+            isinstance(goal, Report) for goal in goals
+        )
         self.walks_by = any(isinstance(goal, GoTo) and goal.by for goal in goals)
 
     def name(self, *names: str) -> bool:
@@ -161,6 +164,8 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
             text.words[match.end : match.end + 2]
         ):
             return match.end, True  # the plate Ada left on the sofa
+        if match.of("person") and text.word(match.end + 1) in _TAKEN_BACK and told.speaks:
+            return match.end, True  # tell Ada, no, Leo, that ...
         favour = text.word(at - 1) == "for" and bool(match.of("person"))
         return match.end, known or (favour and not told.handed_over)
     most = text.lookup(lexicon.SUPERLATIVES, at)
