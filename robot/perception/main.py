@@ -21,7 +21,9 @@ def main(run_file: str, parent_pid: str) -> None:
     config, clock = run.load(run_file), WallClock()
     robot = description.load(config.robot)
     with ZenohBus("perception", config.sockets) as bus:
-        node = PerceptionNode(Wiring(robot=robot, clock=clock, bus=bus), looks=config.pictures)
+        node = PerceptionNode(
+            Wiring(robot=robot, clock=clock, bus=bus), looks=config.pictures, eyes=config.eyes
+        )
         stop = Stop()
         with node:
             while not stop:

@@ -65,6 +65,8 @@ def go_on_with(recorded: Recording, model: Path | None) -> int:
         seed=header.seed,
         fast=header.runtime == "fast",
         vary=header.varied,
+        reality=header.reality,
+        eyes=header.eyes,
         model=model,
         left_by=recorded.folder,
     )
@@ -145,7 +147,7 @@ def conversation(
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
     where = request.setting(
-        REALITY.under(options.reality),
+        REALITY.under(options.reality, eyes=options.eyes),
         options.world,
         robot=options.robot,
         vary_seed=options.vary_seed,
