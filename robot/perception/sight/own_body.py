@@ -18,7 +18,7 @@ STRIDE_PX = 2
 """A ray for each second pixel of each second row."""
 GROWN_PX = 2
 """Fingers are a little elsewhere than their joints say, and cameras blur."""
-SHOWN = np.array([1, 1, 1, 0, 0, 0], dtype=np.uint8)
+SHOWN = np.array([1, 1, 1, 0, 1, 0], dtype=np.uint8)
 """Groups of geoms that are seen."""
 STATIC = True
 REACH_M = 1.6

@@ -21,8 +21,9 @@ from robot.usual_things import usual
 
 FAR_M = 3.4
 """Beyond it depth says little of a small thing."""
-SAME_SHARE, SAME_M = 0.6, 0.03
-"""Two parts of one thing: their middles are nearer than that share of the larger one's width."""
+SAME_SHARE, SAME_M = 0.6, 0.02
+"""Two parts of one thing: alike in colour and nearer than that share of the larger one's width, or
+nearer than two things can be."""
 AT_HAND_M = 0.13
 """What is so near to a hand that holds something is that."""
 RESIZED_M = 0.003
@@ -183,7 +184,7 @@ def _are_one(larger: Measured, other: Measured) -> bool:
     apart_m = float(np.linalg.norm((larger.p_W - other.p_W)[:2]))
     width_m = max(*larger.size_m[:2], *other.size_m[:2])
     alike = bool(set(larger.seen.colours) & set(other.seen.colours))
-    return alike and apart_m < max(SAME_SHARE * width_m, SAME_M)
+    return apart_m < SAME_M or (alike and apart_m < SAME_SHARE * width_m)
 
 
 def _is_at(p_W: Array, hands_W: Sequence[Vector3]) -> bool:
