@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any, NamedTuple, TypeAlias
 
 import msgspec
@@ -38,7 +39,11 @@ class View(NamedTuple):
 
 
 class Gaze:
-    """Takes or picks pictures when there is something to see, and looks at them."""
+    """Takes or picks pictures when there is something to see, and looks at them.
+
+    Where it takes them itself a look is done at once, so that all is repeatable. Where they come by
+    themselves it is done in a thread, and nothing else of perception waits for it.
+    """
 
     def __init__(self, body: BodyModel, bus: Bus, *, take: Take | None) -> None:
         """Load the networks.
@@ -59,6 +64,13 @@ class Gaze:
         self._pictures = bus.subscribe(topics.RGBD)
         self._looked_at_s = self._asked_s = self._told_s = -math.inf
         self._map: WorldMap | None = None
+        self._worker = ThreadPoolExecutor(1, "eyes") if take is None else None
+        self._looking: tuple[View, Future[Look]] | None = None
+
+    def close(self) -> None:
+        """Let a look come to its end."""
+        if self._worker is not None:
+            self._worker.shutdown()
 
     def tell(self, world_map: WorldMap) -> None:
         """Take what an owner says that there is."""
@@ -75,7 +87,7 @@ class Gaze:
 
     def view(self, history: BodyHistory, X_WN: SE3, now_s: float) -> View | None:
         """A picture to look at now, None if there is none or nothing to see."""
-        if now_s - self._asked_s < PERIOD_S - 1e-6:
+        if self._looking is not None or now_s - self._asked_s < PERIOD_S - 1e-6:
             return None
         stamp_s, image = now_s, None
         if self._take is None:
@@ -102,8 +114,24 @@ class Gaze:
         self._looked_at_s = stamp_s
         return View(image, X_WC, self._data)
 
-    def look(self, view: View, held: tuple[Track, ...]) -> Look:
-        """Find out what is in a picture; what the hands hold is known by them."""
+    def begin(self, view: View, held: tuple[Track, ...]) -> None:
+        """Begin to find out what is in a picture; what the hands hold is known by them."""
+        if self._worker is not None:
+            self._looking = view, self._worker.submit(self._look, view, held)
+            return
+        done: Future[Look] = Future()
+        done.set_result(self._look(view, held))
+        self._looking = view, done
+
+    def done(self) -> tuple[View, Look] | None:
+        """The picture that was looked at, and what came of it; None as long as nothing did."""
+        if self._looking is None or not self._looking[1].done():
+            return None
+        view, look = self._looking
+        self._looking = None
+        return view, look.result()
+
+    def _look(self, view: View, held: tuple[Track, ...]) -> Look:
         poses = {track.id: track.X_WO for track in held if track.X_WO is not None}
         return self._seer.look(
             view.image,

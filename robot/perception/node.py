@@ -111,6 +111,8 @@ class PerceptionNode(Closing):
         """Let go of the sensors."""
         if self._eye is not None:
             self._eye.close()
+        if self._gaze is not None:
+            self._gaze.close()
         self._senses.close()
 
     def step(self) -> None:
@@ -199,10 +201,13 @@ class PerceptionNode(Closing):
         if self._depth is None or self._now_s - self._depth.stamp_s > PATIENCE_S:
             return  # the camera is silent
         view = gaze.view(self._history, self._localiser.X_WN, self._now_s)
-        if view is None:
+        if view is not None:
+            hands = self._world.held()
+            gaze.begin(view, tuple(t for t in self._world.tracks() if t.id in hands))
+        done = gaze.done()
+        if done is None:
             return
-        hands = self._world.held()
-        look = gaze.look(view, tuple(t for t in self._world.tracks() if t.id in hands))
+        view, look = done
         self._world.measure(gaze.infos())
         self._world.see(look.sightings, view.X_WC, None)
         self._world.miss(look.missed)

@@ -183,7 +183,7 @@ def _is_empty(view: Sight, track: Seen) -> bool:
         return False
     column = round(view.focal_px * x / z + view.centre_px[0])
     row = round(view.focal_px * y / z + view.centre_px[1])
-    reach = max(1, round(0.25 * view.focal_px * float(track.size_m.min()) / z))
+    reach = max(1, round(0.25 * view.focal_px * min(track.size_m.tolist()) / z))
     height, width = view.depth_m.shape
     edge = EDGE_PX + reach
     if not (edge <= column < width - edge and edge <= row < height - edge):
