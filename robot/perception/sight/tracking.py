@@ -183,11 +183,13 @@ def _is_empty(view: Sight, track: Seen) -> bool:
         return False
     column = round(view.focal_px * x / z + view.centre_px[0])
     row = round(view.focal_px * y / z + view.centre_px[1])
-    reach = max(1, round(0.25 * view.focal_px * min(track.size_m.tolist()) / z))
+    least_m: float = min(track.size_m.tolist())
+    reach = max(1, round(0.25 * view.focal_px * least_m / z))
     height, width = view.depth_m.shape
     edge = EDGE_PX + reach
     if not (edge <= column < width - edge and edge <= row < height - edge):
         return False
     patch = view.depth_m[row - reach : row + reach + 1, column - reach : column + reach + 1]
     there = patch[patch > 0.0]
-    return len(there) > 0.5 * patch.size and float(np.mean(there > z + EMPTY_M)) > EMPTY_SHARE
+    behind = int(np.count_nonzero(there > z + EMPTY_M))
+    return len(there) > 0.5 * patch.size and behind > EMPTY_SHARE * len(there)
