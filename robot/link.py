@@ -47,7 +47,7 @@ class BodyLink(Protocol):
         ...
 
     def map(self) -> WorldMap | None:
-        """The prior map, None before it came."""
+        """The map: the robot's own where its eyes make one, else the prior; None before it came."""
         ...
 
     def lidar(self) -> LidarScan | None:
@@ -89,6 +89,7 @@ class BusLink:
         self._body = bus.subscribe(topics.BODY_STATE)
         self._world = bus.subscribe(topics.WORLD_STATE)
         self._map = bus.subscribe(topics.ORACLE_MAP)
+        self._own_map = bus.subscribe(topics.WORLD_MAP)
         self._lidar = bus.subscribe(topics.LIDAR)
         self._depth = bus.subscribe(topics.DEPTH)
         self._camera = bus.subscribe(topics.CAMERA_STATE)
@@ -120,8 +121,8 @@ class BusLink:
         return self._world.latest
 
     def map(self) -> WorldMap | None:
-        """The prior map, None before it came."""
-        return self._map.latest
+        """The map: the robot's own where its eyes make one, else the prior; None before it came."""
+        return self._own_map.latest or self._map.latest
 
     def lidar(self) -> LidarScan | None:
         """The newest lidar scan."""

@@ -15,11 +15,14 @@ from numpy.typing import NDArray
 
 from robot.failures import Failure
 from robot.se3 import SE3, Array, Vector3
+from robot.usual_things import usual
 
 Side = Literal["left", "right"]
 Mode = Literal["damping", "stand", "walk", "fallen", "rising"]
 Channel = Literal["legs", "waist", "head", "left_arm", "right_arm", "left_hand", "right_hand"]
 Source = Literal["oracle", "emulated", "sensor", "estimate"]
+EyesBy = Literal["oracle", "camera"]
+"""Who tells where the things are: the simulator, or what the robot sees in its own pictures."""
 SAMPLE_M = 0.25
 """How far apart the points of a surface are by which it is said what of it was seen [m]."""
 
@@ -534,6 +537,12 @@ class ObjectInfo(msgspec.Struct, frozen=True, kw_only=True):
         plain = self.name.removeprefix(f"{self.color} ") if self.color else self.name
         return plain or self.name
 
+    def told(self) -> ObjectInfo:
+        """As it is known by its name alone: as large and heavy as such things usually are."""
+        known = usual(self.category)
+        shape = Shape(kind=known.kind, size_m=known.size_m)
+        return msgspec.structs.replace(self, shape=shape, mass_kg=known.mass_kg)
+
     @property
     def full_name(self) -> str:
         """What it is called on screen: "the red cup"."""
@@ -565,6 +574,10 @@ class WorldMap(Message, frozen=True, kw_only=True):
     bounds_m: tuple[float, float, float, float]
     start_X_WS: SE3 = SE3()
     source: Source = "oracle"
+
+    def told(self) -> WorldMap:
+        """The same without what only eyes and hands can know of objects: their forms and masses."""
+        return msgspec.structs.replace(self, objects=tuple(one.told() for one in self.objects))
 
     def object(self, object_id: str) -> ObjectInfo | None:
         """The object with an id."""

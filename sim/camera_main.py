@@ -26,7 +26,11 @@ def main(run_file: str, parent_pid: str) -> None:
     tie_to_parent(int(parent_pid))
     os.nice(NICENESS)
     config, clock, stop = run.load(run_file), WallClock(), Stop()
-    world = Simulation().under(config.reality).world(config.world, vary_seed=config.variation_seed)
+    world = (
+        Simulation()
+        .under(config.reality, eyes=config.eyes)
+        .world(config.world, vary_seed=config.variation_seed)
+    )
     plant = world.plant(description.load(config.robot), seed=config.seed)
     while not (stop or (config.memory / NAME).exists()):
         clock.sleep_until(clock.now_s() + PERIOD_S)

@@ -23,7 +23,11 @@ def main(run_file: str, parent_pid: str) -> None:
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
     config, stop = run.load(run_file), Stop()
-    world = Simulation().under(config.reality).world(config.world, vary_seed=config.variation_seed)
+    world = (
+        Simulation()
+        .under(config.reality, eyes=config.eyes)
+        .world(config.world, vary_seed=config.variation_seed)
+    )
     robot = description.load(config.robot).driven_by(config.motors)
     plant = world.plant(robot, seed=config.seed)
     with ExitStack() as stack:

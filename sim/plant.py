@@ -16,7 +16,7 @@ from robot.bus.topics import HEARD, Topic
 from robot.drivers.body_sample import BodySample
 from robot.drivers.motor_bus import MotorCommand
 from robot.errors import ConfigError, DriverError
-from robot.messages import Message, Place
+from robot.messages import EyesBy, Message, Place
 from robot.model.description import RobotDescription
 from robot.physics import GRAVITY_M_S2
 from robot.reality.faults import check_name
@@ -72,6 +72,7 @@ class Plant:
         pose_error_m: float = POSE_ERROR_M,
         physics_ms: int = PHYSICS_MS,
         reality: str = IDEAL,
+        eyes: EyesBy = "oracle",
     ) -> None:
         """Build the scene and stand the robot on its soles at the world's start.
 
@@ -84,6 +85,7 @@ class Plant:
             pose_error_m: how far from the truth the oracle sights objects.
             physics_ms: time step of the physics; 2 is a third faster, 1 is finer.
             reality: how far it is from what is described (`sim.realities`).
+            eyes: who tells the robot where the things are.
 
         Raises:
             DescriptionError: if the robot's description and its MJCF disagree.
@@ -108,7 +110,7 @@ class Plant:
         self.battery = Battery(robot.battery) if robot.battery else None
         self.sending = Sending(
             self.model, self.data, self.world, robot=robot, rng=seeds[2],
-            pose_error_m=pose_error_m, battery=self.battery,
+            pose_error_m=pose_error_m, battery=self.battery, eyes=eyes,
         )  # fmt: skip
         self.people = People(self.model, self.data, self.world, robot=robot, rng=seeds[3])
         self._people_ms = NEVER

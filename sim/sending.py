@@ -13,7 +13,7 @@ import numpy as np
 from robot.bus import topics
 from robot.bus.topics import Topic
 from robot.drivers.simulation.plant_sensors import emulated
-from robot.messages import Message
+from robot.messages import EyesBy, Message
 from robot.model.description import RobotDescription
 from sim.atlas import world_map
 from sim.battery import Battery
@@ -66,17 +66,22 @@ class Sending:
         rng: np.random.Generator,
         pose_error_m: float,
         battery: Battery | None,
+        eyes: EyesBy = "oracle",
     ) -> None:
-        """Build every sensor; each draws its noise from its own child of `rng`."""
+        """Build every sensor; each draws its noise from its own child of `rng`.
+
+        Where the robot's own eyes find the things (`eyes`), the oracle sights none of them, and the
+        map tells no more of them than their names do.
+        """
         seeds = rng.spawn(3)
         self._model, self._data = model, data
         self.camera = DepthCamera(model, data, robot, rng=seeds[0])
         self.lidar = PlanarLidar(model, data, robot, rng=seeds[1])
         self.oracle = Oracle(
             model, data, world, robot=robot, rays=Rays(model, data, body=self.camera.body),
-            rng=seeds[2], pose_error_m=pose_error_m,
+            rng=seeds[2], pose_error_m=pose_error_m, sees_things=eyes == "oracle",
         )  # fmt: skip
-        prior = world_map(world)
+        prior = world_map(world) if eyes == "oracle" else world_map(world).told()
         self.relieved = False
         self._sources: list[_Source[Any]] = [
             _Source(topics.DEPTH, self.camera.capture),

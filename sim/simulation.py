@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
+from robot.messages import EyesBy
 from robot.model.description import RobotDescription
 from robot.reality.contract import Begin, Cast, EmulatedBuses, Home, ThingKind
 from robot.reality.faults import Fault
@@ -34,16 +35,18 @@ class Simulation:
 
     Attributes:
         profile: how far what is felt and done there is from what is described (`sim.realities`).
+        eyes: who tells robots where the things are.
     """
 
-    def __init__(self, profile: str = realities.IDEAL) -> None:
+    def __init__(self, profile: str = realities.IDEAL, *, eyes: EyesBy = "oracle") -> None:
         """Raises ConfigError for a profile that is none."""
         realities.profile(profile)
         self.profile = profile
+        self.eyes: EyesBy = eyes
 
-    def under(self, profile: str) -> Simulation:
-        """The same with another profile. Raises ConfigError, with the nearest name."""
-        return Simulation(profile)
+    def under(self, profile: str, *, eyes: EyesBy = "oracle") -> Simulation:
+        """The same with another profile and eyes. Raises ConfigError, with the nearest name."""
+        return Simulation(profile, eyes=eyes)
 
     def names(self) -> list[str]:
         """Names of the shipped worlds."""
@@ -64,7 +67,9 @@ class Simulation:
             entries = world.load(name_or_path)
         if vary_seed is not None:
             entries = placing.variation(entries, vary_seed)
-        return SimulatedWorld(entries, name=name_or_path, vary_seed=vary_seed, profile=self.profile)
+        return SimulatedWorld(
+            entries, name=name_or_path, vary_seed=vary_seed, profile=self.profile, eyes=self.eyes
+        )
 
     def home_kinds(self) -> list[str]:
         """Kinds of homes that can be made (sim/homes/kinds)."""
@@ -134,7 +139,8 @@ class SimulatedWorld:
         name: by which it was asked for.
         vary_seed: what it was shuffled by.
         profile: of the reality it is in.
-        map: the prior map.
+        eyes: who tells robots in it where the things are.
+        map: the prior map; where that is their own eyes, without sizes and masses of things.
     """
 
     def __init__(
@@ -144,13 +150,16 @@ class SimulatedWorld:
         name: str = "",
         vary_seed: int | None = None,
         profile: str = realities.IDEAL,
+        eyes: EyesBy = "oracle",
     ) -> None:
         """Make the map."""
         self.entries = entries
         self.name = name or entries.name
         self.vary_seed = vary_seed
         self.profile = profile
-        self.map = atlas.world_map(entries)
+        self.eyes: EyesBy = eyes
+        known = atlas.world_map(entries)
+        self.map = known if eyes == "oracle" else known.told()
 
     def content(self) -> bytes:
         """Everything in it; keys that came later count only where they are used."""
@@ -171,7 +180,7 @@ class SimulatedWorld:
         """The same, begun a little otherwise."""
         entries = placing.nudged(self.entries, seed, start=start)
         return SimulatedWorld(
-            entries, name=self.name, vary_seed=self.vary_seed, profile=self.profile
+            entries, name=self.name, vary_seed=self.vary_seed, profile=self.profile, eyes=self.eyes
         )
 
     def verify(self, fault: Fault, robot: RobotDescription) -> None:
@@ -197,5 +206,6 @@ class SimulatedWorld:
         from sim.judged_plant import JudgedPlant  # MuJoCo, which a list of worlds needs not
 
         return JudgedPlant(
-            self.entries, robot, seed=seed, physics_ms=physics_ms, reality=self.profile
-        )
+            self.entries, robot, seed=seed, physics_ms=physics_ms, reality=self.profile,
+            eyes=self.eyes,
+        )  # fmt: skip

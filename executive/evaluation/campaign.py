@@ -24,6 +24,7 @@ from executive.runs.task_run import Assignment
 from robot import config, yaml_nodes
 from robot.errors import ConfigError, Problem
 from robot.failures import CATALOGUE
+from robot.messages import EyesBy
 from robot.reality import truth
 from robot.reality.contract import Reality
 from robot.yaml_nodes import Node
@@ -106,7 +107,8 @@ class Run(msgspec.Struct, frozen=True, kw_only=True):
     """One run of a case: all that a worker needs to know.
 
     `robot`, by name or path, stands for that of the mission where it is not empty. `reality` is a
-    profile (docs/realities.md), left out where it is the one without flaws.
+    profile (docs/realities.md), left out where it is the one without flaws. `eyes` find the things;
+    left out where they are the oracle's.
     """
 
     case: Case
@@ -114,6 +116,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True):
     recovery: bool = True
     robot: str = ""
     reality: str | msgspec.UnsetType = msgspec.UNSET
+    eyes: EyesBy | msgspec.UnsetType = msgspec.UNSET
 
     @property
     def key(self) -> str:
@@ -252,7 +255,13 @@ def problems_of(case: Case, settings: Settings) -> list[str]:
 
 
 def runs(
-    cases: tuple[Case, ...], *, seeds: int, without_too: bool, robot: str, reality: str = IDEAL
+    cases: tuple[Case, ...],
+    *,
+    seeds: int,
+    without_too: bool,
+    robot: str,
+    reality: str = IDEAL,
+    eyes: EyesBy = "oracle",
 ) -> list[Run]:
     """Every case with every seed, the seeds outermost, so that all cases get on evenly.
 
@@ -262,6 +271,7 @@ def runs(
         without_too: whether to run everything a second time without recovery.
         robot: who does it.
         reality: in which.
+        eyes: who tells the robot where the things are.
 
     Raises:
         ConfigError: they are more than `MOST_RUNS`.
@@ -269,8 +279,9 @@ def runs(
     ways = (True, False) if without_too else (True,)
     check_count(len(cases) * seeds * len(ways))
     profile = msgspec.UNSET if reality == IDEAL else reality
+    seen_by = msgspec.UNSET if eyes == "oracle" else eyes
     return [
-        Run(case=case, seed=seed, recovery=recovery, robot=robot, reality=profile)
+        Run(case=case, seed=seed, recovery=recovery, robot=robot, reality=profile, eyes=seen_by)
         for seed in range(seeds)
         for case in cases
         for recovery in ways

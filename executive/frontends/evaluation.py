@@ -49,6 +49,7 @@ def evaluate(options: Eval) -> int:
         without_too=options.no_recovery,
         robot=options.robot,
         reality=options.reality,
+        eyes=options.eyes,
     )
     root = Path(executive.__file__).parent.parent
     with Results(_folder(options), fingerprint=fingerprint(root)) as results:
@@ -241,7 +242,7 @@ def _go_through(
     results: Results, runs: list[Run], options: Eval, screen: Screen, *, ending: Ending
 ) -> None:
     """Do the runs that are left, keeping each record as it comes."""
-    there = REALITY.under(options.reality)
+    there = REALITY.under(options.reality, eyes=options.eyes)
     work = (
         pool.on_ray(runs, there, stop=lambda: ending.asked)
         if options.ray

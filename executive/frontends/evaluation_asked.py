@@ -10,6 +10,7 @@ import msgspec
 
 from executive.frontends.options import Eval
 from robot.errors import ConfigError, Problem
+from robot.messages import EyesBy
 from robot.ordinary_files import read_ordinary, write_ordinary
 from robot.plain_data import fitted, from_json
 
@@ -30,6 +31,7 @@ class Asked(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     world: str = ""
     robot: str = ""
     reality: str = "ideal"
+    eyes: EyesBy = "oracle"
     seeds: Annotated[int, msgspec.Meta(ge=1, le=10_000)] = 1
     no_recovery: bool = False
 
@@ -48,6 +50,7 @@ def keep(folder: Path, options: Eval) -> None:
         world=options.world,
         robot=options.robot,
         reality=options.reality,
+        eyes=options.eyes,
         seeds=options.seeds,
         no_recovery=options.no_recovery,
     )
@@ -86,6 +89,7 @@ def as_before(options: Eval) -> Eval:
         faults=asked.faults,
         homes=asked.homes,
         reality=asked.reality,
+        eyes=asked.eyes,
         world=asked.world,
         robot=options.robot or asked.robot,
         seeds=max(options.seeds, asked.seeds),

@@ -25,6 +25,7 @@ import typer
 
 from executive.frontends import completing
 from executive.frontends.dump.cli import Dump, DumpFormat, DumpOn
+from robot.messages import EyesBy
 
 T = TypeVar("T")
 
@@ -56,6 +57,14 @@ InReality = Annotated[
         "--reality",
         help="How far robot and senses are from their descriptions: ideal, real or harsh "
         "(docs/realities.md).",
+    ),
+]
+Eyes = Annotated[
+    EyesBy,
+    typer.Option(
+        "--eyes",
+        help="Who tells the robot where things are: oracle (the simulator), or camera: it finds, "
+        "measures and names them in its own pictures (docs/perception.md; extra: vision).",
     ),
 ]
 Driver = Annotated[
@@ -101,6 +110,7 @@ class Seeded:
 
     seed: Seed = 0
     reality: InReality = "ideal"
+    eyes: Eyes = "oracle"
     fast: Annotated[
         bool,
         typer.Option(
@@ -279,6 +289,7 @@ class Eval:
         str, typer.Option("--robot", "-r", help="In place of the missions' own (juno).")
     ] = ""
     reality: InReality = "ideal"
+    eyes: Eyes = "oracle"
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")] = (
         False
     )

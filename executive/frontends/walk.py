@@ -26,7 +26,9 @@ def walk(options: Walk) -> int:
     Raises:
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
-    where = request.setting(REALITY.under(options.reality), options.world, robot=options.robot)
+    where = request.setting(
+        REALITY.under(options.reality, eyes=options.eyes), options.world, robot=options.robot
+    )
     command = VelocityCommand(
         forward_m_s=options.speed,
         left_m_s=options.left,

@@ -20,6 +20,7 @@ from executive.runs import provenance
 from executive.runs.provenance import Origin
 from executive.runs.runtimes import Setup
 from robot.errors import ConfigError, Problem
+from robot.messages import EyesBy
 from robot.ordinary_files import is_within, make_below, read_ordinary, write_ordinary
 from robot.yaml_nodes import MAX_BYTES
 
@@ -36,6 +37,7 @@ class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     What was asked for stands here as `text` for people; what jobs are made of, in the journal.
     `reality`: the profile of the simulated one (docs/realities.md).
     `driver`: of the motors, where that is not the one that the robot's description names.
+    `eyes`: who told where the things were, the oracle or the robot's own camera.
     `attended`: a person was there, to ask for more and to inject faults.
     """
 
@@ -47,6 +49,7 @@ class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     varied: bool = False
     reality: str = "ideal"
     driver: str = ""
+    eyes: EyesBy = "oracle"
     attended: bool = False
     origin: Origin | None = None
 
@@ -63,6 +66,7 @@ def header(setup: Setup, *, text: str, attended: bool = False) -> Header:
         varied=where.world.vary_seed is not None,
         reality=where.world.profile,
         driver=setup.driver,
+        eyes=where.world.eyes,
         attended=attended,
         origin=provenance.of(where.world, where.description),
     )

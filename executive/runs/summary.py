@@ -15,7 +15,7 @@ from executive.skills.place import PlaceParams
 from executive.trees.parts import Errand, Part, Settle, children
 from robot.exit_status import exit_status
 from robot.failures import Failure
-from robot.messages import LoopTiming, WorldState
+from robot.messages import EyesBy, LoopTiming, WorldState
 
 
 class Summary(msgspec.Struct, frozen=True, kw_only=True):
@@ -40,6 +40,7 @@ class Summary(msgspec.Struct, frozen=True, kw_only=True):
     late: tuple[str, ...] = ()
     folder: str = ""
     unwritten: tuple[str, ...] = ()
+    eyes: EyesBy = "oracle"
 
     @property
     def real_time_factor(self) -> float:
@@ -95,6 +96,7 @@ def summary(session: Session, task: Part, *, since_s: float, wall_s: float) -> S
         ),
         late=late_periods(runtime),
         folder=str(folder) if folder and (folder / FILE).exists() else "",
+        eyes=session.setup.where.world.eyes,
     )
 
 
@@ -149,6 +151,9 @@ def _placed(
     return tuple({placed.object: placed for placed in found}.values())
 
 
+SEEN = "  things were seen by its own camera; oracle still: its place, people, the map of the room"
+
+
 def last_lines(summary: Summary) -> list[str]:
     """The last lines: what happened, and what to do about it."""
     lines = [failures.verdict(None if summary.status == "done" else summary)]
@@ -160,6 +165,8 @@ def last_lines(summary: Summary) -> list[str]:
     for item in summary.expected:
         instead = f": {item.found}" if item.found and not item.so else ""
         lines.append(f"  {'as expected' if item.so else 'NOT SO     '}  {item.check}{instead}")
+    if summary.eyes == "camera":
+        lines.append(SEEN)
     pace = f"{summary.simulated_s:.1f} s of robot time in {summary.wall_s:.1f} s of wall time"
     lines.append(f"  {pace} ({summary.real_time_factor:.1f} x)")
     recovered = "1 recovery" if summary.recoveries == 1 else f"{summary.recoveries} recoveries"

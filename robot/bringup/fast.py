@@ -46,14 +46,22 @@ class FastRuntime(Lockstep):
         clock = SimulatedClock()
         wiring = Wiring(robot=body, clock=clock, bus=bus, plant=plant)
         states = bus.subscribe(topics.BODY_STATE)
+        camera = plant.camera(renderer="rays") if world.eyes == "camera" else None
+        self._camera = None if camera is None else camera.__enter__()
         super().__init__(
             plant,
             lambda: _controller(body, states.latest),
-            PerceptionNode(wiring),
+            PerceptionNode(wiring, eyes=world.eyes, take=None if camera is None else camera.take),
             body=BodyDevices(wiring, needs=NEEDS),
             bus=bus,
             clock=clock,
         )
+
+    def close(self) -> None:
+        """Damp the motors, and close the camera and the bus."""
+        super().close()
+        if self._camera is not None:
+            self._camera.close()
 
 
 def _controller(body: RobotDescription, before: BodyState | None) -> ControlLoop:

@@ -110,8 +110,9 @@ class LiveRuntime(Closing):
             variation_seed=world.vary_seed,
             reality=world.profile,
             simulated=simulated,
-            pictures=pictures,
+            pictures=pictures or world.eyes == "camera",
             motors=motors,
+            eyes=world.eyes,
         )
         self._handle = handle
         self._crew: Crew | None = None

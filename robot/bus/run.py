@@ -7,6 +7,7 @@ from pathlib import Path
 import msgspec
 
 from robot.errors import ConfigError
+from robot.messages import EyesBy
 
 
 class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -16,7 +17,8 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     sockets and the plant's shared memory. `variation_seed` shuffles the world, None leaves it.
     `reality` is the profile of the simulated one; `simulated` says whether there is one, `pictures`
     whether somebody looks through its camera. `motors` is the driver of the motors in place of the
-    one in the robot's description; in simulation it is emulated.
+    one in the robot's description; in simulation it is emulated. `eyes` is who tells where
+    things are.
     """
 
     folder: str
@@ -29,6 +31,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     simulated: bool = True
     pictures: bool = False
     motors: str = ""
+    eyes: EyesBy = "oracle"
 
     @property
     def memory(self) -> Path:

@@ -86,6 +86,8 @@ CAMERA_STATE: Topic[CameraState] = Topic("sensors/camera_state", CameraState, 2.
 ORACLE_FIX: Topic[PoseFix] = Topic("oracle/fix", PoseFix, 10.0, "plant", queue=64)
 ORACLE_SIGHTINGS: Topic[Sightings] = Topic("oracle/sightings", Sightings, 10.0, "plant")
 ORACLE_MAP: Topic[WorldMap] = Topic("oracle/map", WorldMap, 1.0, "plant")
+WORLD_MAP: Topic[WorldMap] = Topic("world/map", WorldMap, 1.0, "perception")
+"""The prior map, with things as the robot's own eyes see them, where these tell of them."""
 SPOKEN: Topic[Spoken] = Topic("voice/spoken", Spoken, None, "executive", queue=32)
 HEARD: Topic[Heard] = Topic("oracle/heard", Heard, None, "plant", queue=32)
 POWER: Topic[PowerState] = Topic("power/state", PowerState, 1.0, "controller")
@@ -107,6 +109,7 @@ TOPICS: tuple[Topic[Any], ...] = (
     ORACLE_FIX,
     ORACLE_SIGHTINGS,
     ORACLE_MAP,
+    WORLD_MAP,
     SPOKEN,
     HEARD,
     POWER,

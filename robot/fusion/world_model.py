@@ -7,7 +7,7 @@ it is between them.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -63,10 +63,18 @@ class WorldModel:
         """Learn what and who there is; those already tracked keep their tracks."""
         for info in objects:
             self._tracks.setdefault(info.id, Track(id=info.id, X_WO=None, seen_s=-math.inf))
-            self._shapes[info.id] = info.shape
+        self.measure(objects)
         for person in people:
             unseen = Track(id=person.id, X_WO=person.X_WO, seen_s=-math.inf)
             self._people.setdefault(person.id, unseen)
+
+    def measure(self, objects: tuple[ObjectInfo, ...]) -> None:
+        """Learn what objects are like that are known already."""
+        self._shapes.update((info.id, info.shape) for info in objects)
+
+    def held(self) -> dict[str, Side]:
+        """Which objects the hands have."""
+        return {name: side for name, (side, _) in self._holds.items()}
 
     def tracks(self) -> tuple[Track, ...]:
         """Every object's track, in the order they became known."""
@@ -76,8 +84,13 @@ class WorldModel:
         """Every person's track, in the order they became known."""
         return tuple(self._people.values())
 
-    def see(self, sightings: Sightings, X_WC: SE3, depth: DepthImage | None) -> None:
-        """Take one frame of the camera at X_WC; without depth nothing can be missed."""
+    def see(
+        self, sightings: Sightings, X_WC: SE3, depth: DepthImage | None, *, things: bool = True
+    ) -> None:
+        """Take one frame of the camera at X_WC; without depth nothing can be missed.
+
+        Without `things` it is a frame of people: it does not say that an object is gone.
+        """
         _place(self._tracks, self._misses, sightings.objects, X_WC, sightings.stamp_s)
         _place(self._people, self._misses, sightings.people, X_WC, sightings.stamp_s)
         seen = {sighting.id for sighting in (*sightings.objects, *sightings.people)}
@@ -85,17 +98,27 @@ class WorldModel:
         if depth is None:
             return
         view = View(depth, X_WC, range_m=self._range_m)
+        if things:
+            self._miss_objects(view, seen)
+        for name, track in self._people.items():
+            if track.X_WO is None or name in seen:
+                continue
+            if view.is_clear((*track.X_WO.p[:2], WAIST_M), WAIST_RADIUS_M):
+                self._miss(self._people, name)
+
+    def miss(self, names: Collection[str]) -> None:
+        """Take it that objects were looked for in plain view, and that their places are empty."""
+        for name in names:
+            if self._tracks[name].X_WO is not None and name not in self._holds:
+                self._miss(self._tracks, name)
+
+    def _miss_objects(self, view: View, seen: Collection[str]) -> None:
         for name, track in self._tracks.items():
             if track.X_WO is None or name in seen or name in self._holds:
                 continue
             radius_m = 0.5 * max(self._shapes[name].size_m[:2]) if name in self._shapes else 0.0
             if view.is_clear(track.X_WO.p, radius_m):
                 self._miss(self._tracks, name)
-        for name, track in self._people.items():
-            if track.X_WO is None or name in seen:
-                continue
-            if view.is_clear((*track.X_WO.p[:2], WAIST_M), WAIST_RADIUS_M):
-                self._miss(self._people, name)
 
     def _miss(self, tracks: dict[str, Track], name: str) -> None:
         self._misses[name] = self._misses.get(name, 0) + 1

@@ -26,7 +26,7 @@ def main(run_file: str, parent_pid: str) -> None:
     with ZenohBus("perception", config.sockets) as bus:
         album = Album(Path(config.folder) / COLOUR_FILE)
         wiring = Wiring(robot=robot, clock=clock, bus=bus)
-        node = PerceptionNode(wiring, looks=config.pictures, album=album)
+        node = PerceptionNode(wiring, looks=config.pictures, album=album, eyes=config.eyes)
         stop = Stop()
         with node:
             while not stop:

@@ -20,6 +20,7 @@ from robot.fusion.unmapped import UnmappedObstacles
 from robot.fusion.world_model import Hand, WorldModel
 from robot.messages import (
     DepthImage,
+    EyesBy,
     LidarScan,
     Message,
     PoseFix,
@@ -30,6 +31,7 @@ from robot.messages import (
 from robot.model.body import BodyModel
 from robot.perception.album import Album
 from robot.perception.eye import Eye
+from robot.perception.gaze import Gaze, Take
 from robot.se3 import SE3
 
 PERIOD_S = 0.1
@@ -48,13 +50,24 @@ class PerceptionNode(Closing):
     head and base stood where it is believed that they stood. Time is the newest stamp.
     """
 
-    def __init__(self, wiring: Wiring, *, looks: bool = False, album: Album | None = None) -> None:
+    def __init__(
+        self,
+        wiring: Wiring,
+        *,
+        looks: bool = False,
+        album: Album | None = None,
+        eyes: EyesBy = "oracle",
+        take: Take | None = None,
+    ) -> None:
         """Subscribe; compile the body for the poses of camera and lidar.
 
         Args:
             wiring: for the drivers.
             looks: whether pictures are to be looked at, though the camera is simulated.
             album: where some of them are kept; None: nowhere.
+            eyes: who tells where things are; with "camera" they are found in pictures.
+            take: takes a picture of that very moment; without, the newest of the camera is looked
+                at.
 
         Raises:
             DescriptionError: if description and MJCF disagree.
@@ -63,9 +76,8 @@ class PerceptionNode(Closing):
         bus, description = wiring.bus, wiring.robot
         sensors = description.sensors
         self._senses = PublishedSensors(wiring, "perception")
-        self._eye = (
-            Eye(wiring, album=album) if looks or not RGBD.is_simulated(description) else None
-        )
+        wants = looks or not RGBD.is_simulated(description)
+        self._eye = Eye(wiring, album=album) if wants and take is None else None
         self._bus = bus
         self._states = bus.subscribe(topics.BODY_STATE)
         self._map = bus.subscribe(topics.ORACLE_MAP)
@@ -87,6 +99,7 @@ class PerceptionNode(Closing):
         self._in_view = UnmappedObstacles(
             body_radius_m=radius_m, forget_s=REMEMBER_S, name="in_view"
         )
+        self._gaze = Gaze(self._body, bus, take=take) if eyes == "camera" else None
         self._now_s = self._looked_s = -math.inf
         self._published_s = -math.inf
 
@@ -101,6 +114,8 @@ class PerceptionNode(Closing):
         """Let go of the sensors."""
         if self._eye is not None:
             self._eye.close()
+        if self._gaze is not None:
+            self._gaze.close()
         self._senses.close()
 
     def step(self) -> None:
@@ -120,6 +135,8 @@ class PerceptionNode(Closing):
                 self._take(message)
             elif self._now_s - message.stamp_s < PATIENCE_S:
                 self._waiting.append(message)
+        if self._gaze is not None:
+            self._look(self._gaze)
         if self._now_s - self._published_s > PERIOD_S - 1e-6:
             self._publish()
 
@@ -129,6 +146,8 @@ class PerceptionNode(Closing):
             self._known = world_map
             self._world.know(world_map.objects, world_map.people)
             self._looked.know(world_map.places)
+            if self._gaze is not None:
+                self._gaze.tell(world_map)
             people = {person.id for person in world_map.people}  # they walk: nothing explains them
             fixed = tuple(thing for thing in world_map.obstacles if thing.id not in people)
             self._unmapped.know(fixed)
@@ -145,7 +164,8 @@ class PerceptionNode(Closing):
         elif isinstance(message, Sightings):
             X_WC = self._site_in_world(self._camera, message.stamp_s)
             if X_WC is not None:
-                self._world.see(message, X_WC, self._depth_at(message.stamp_s))
+                depth, by_oracle = self._depth_at(message.stamp_s), self._gaze is None
+                self._world.see(message, X_WC, depth, things=by_oracle)
         elif isinstance(message, LidarScan) and self._known is not None:
             X_WLidar = self._site_in_world(self._lidar, message.stamp_s)
             if X_WLidar is not None:
@@ -159,6 +179,8 @@ class PerceptionNode(Closing):
         if self._localiser.jumps > jumps:
             self._unmapped.forget()
             self._in_view.forget()
+            if self._gaze is not None:
+                self._gaze.forget()
 
     def _look_out(self, image: DepthImage) -> None:
         """Find in a depth image what stands in the way, and what it shows of the surfaces.
@@ -172,7 +194,28 @@ class PerceptionNode(Closing):
             self._looked_s = image.stamp_s
             self._feel(self._in_view)
             self._in_view.see_depth(image, X_WC, self._localiser.X_WN @ X_NB.X_NB)
-            self._looked.see(image, X_WC)
+            if self._gaze is None:
+                self._looked.see(image, X_WC)
+
+    def _look(self, gaze: Gaze) -> None:
+        """Look at a picture, if it is time for one: what is in it, and which surfaces it shows."""
+        if math.isinf(self._localiser.fixed_s) or self._known is None:
+            return
+        if self._depth is None or self._now_s - self._depth.stamp_s > PATIENCE_S:
+            return  # the camera is silent
+        view = gaze.view(self._history, self._localiser.X_WN, self._now_s)
+        if view is not None:
+            hands = self._world.held()
+            gaze.begin(view, tuple(t for t in self._world.tracks() if t.id in hands))
+        done = gaze.done()
+        if done is None:
+            return
+        view, look = done
+        self._world.measure(gaze.infos())
+        self._world.see(look.sightings, view.X_WC, None)
+        self._world.miss(look.missed)
+        self._looked.see(gaze.surfaces(view), view.X_WC)
+        gaze.publish(self._now_s)
 
     def _feel(self, obstacles: UnmappedObstacles) -> None:
         """Tell where the robot's own arms are, which the sensors see as well."""

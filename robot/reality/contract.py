@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, Protocol
 from robot.bus.topics import Topic
 from robot.closing import Closing
 from robot.drivers.wiring import SimulatedPlant
-from robot.messages import Message, WorldMap
+from robot.messages import EyesBy, Message, WorldMap
 from robot.model.description import RobotDescription
 from robot.reality.faults import Fault
 from robot.reality.studio import Renderer, RobotCamera, Studio
@@ -31,8 +31,13 @@ class Reality(Protocol):
         """How far robots and senses there are from their descriptions, by name."""
         ...
 
-    def under(self, profile: str) -> Reality:
-        """The same with another profile (docs/realities.md).
+    @property
+    def eyes(self) -> EyesBy:
+        """Who tells robots there where the things are (docs/perception.md)."""
+        ...
+
+    def under(self, profile: str, *, eyes: EyesBy = "oracle") -> Reality:
+        """The same with another profile (docs/realities.md) and other eyes.
 
         Raises:
             ConfigError: there is none of that name, with the nearest one.
@@ -195,6 +200,11 @@ class World(Protocol):
     @property
     def profile(self) -> str:
         """Of the reality it was read from (`Reality.under`)."""
+        ...
+
+    @property
+    def eyes(self) -> EyesBy:
+        """Of the reality it was read from."""
         ...
 
     @property

@@ -66,13 +66,16 @@ def puppet() -> SensingPuppet:
     return SensingPuppet(JUNO, things, world_map())
 
 
+EYES: m.EyesBy = "oracle"
+
+
 class MappedWorld:
     """A world that is a map and nothing more: for what is meant, not for what is done."""
 
     def __init__(self, name: str = "test") -> None:
         self.name = name
         self.vary_seed = None
-        self.profile = "ideal"
+        self.profile, self.eyes = "ideal", EYES
         self.map = world_map()
 
     def content(self) -> bytes:
@@ -82,9 +85,9 @@ class MappedWorld:
 class Mapped:
     """A reality of such worlds, whatever is asked for."""
 
-    profile = "ideal"
+    profile, eyes = "ideal", EYES
 
-    def under(self, profile: str) -> Mapped:
+    def under(self, profile: str, *, eyes: m.EyesBy = EYES) -> Mapped:
         return self
 
     def names(self) -> list[str]:

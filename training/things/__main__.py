@@ -54,6 +54,8 @@ def main() -> int:
     asked = argparse.ArgumentParser(prog="python -m training.things", description=__doc__)
     asked.add_argument("--folder", type=Path, default=Path("build/things"))
     asked.add_argument("--scenes", type=int, default=150, help="to learn from, 4 pictures each")
+    asked.add_argument("--first", type=int, default=0, help="seed of the first of them")
+    asked.add_argument("--namer-from", type=Path, help="a namer (ONNX) to go on from")
     asked.add_argument("--others", type=int, default=40, help="to choose on, and to judge by")
     asked.add_argument("--walks", type=int, default=20, help="to things, to judge by")
     asked.add_argument("--homes", type=int, default=4, help="made by another generator, likewise")
@@ -90,7 +92,7 @@ def _rendered(options: argparse.Namespace) -> Sets:
     """Every picture there has to be; those that are there stay."""
     folder, jobs, others = options.folder, options.jobs, options.others
     return Sets(
-        render(folder, "train", 0, options.scenes, jobs=jobs),
+        render(folder, "train", options.first, options.scenes, jobs=jobs),
         render(folder, "choose", 0, others, jobs=jobs),
         render(folder, "judge", 0, others, jobs=jobs),
         render(folder, "judge", WALKS_FROM, options.walks, jobs=jobs, walks=True),
@@ -108,7 +110,7 @@ def _named(sets: Sets, finder: Finder, options: argparse.Namespace) -> Learnt:
     told = np.bincount(lessons.names, minlength=len(naming.CLASSES))
     print(f"{len(lessons.names)} crops, {told[-2]} of no kind, {told[-1]} of nothing")
     made = naming.learn(lessons, steps=options.namer_steps, batch=BATCH, seed=options.seed,
-                        minutes=options.minutes)  # fmt: skip
+                        minutes=options.minutes, since=options.namer_from)  # fmt: skip
     return _learn("learn the namer", made, options.namer_steps)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import jax
@@ -13,7 +14,7 @@ import numpy as np
 from robot.perception.things import crops
 from robot.perception.things.inputs import Floats, Sight, sight, tensor
 from robot.perception.things.instances import HALF, instances
-from training.things import graphs, networks
+from training.things import graphs, networks, resuming
 from training.things.frames import Frame
 from training.things.networks import Learnt
 from training.things.splits import kinds
@@ -21,7 +22,8 @@ from training.things.splits import kinds
 UNKNOWN, NOTHING = "", "nothing"
 CLASSES = (*kinds("train"), UNKNOWN, NOTHING)
 GRAPH = graphs.namer(len(CLASSES))
-MOST_RATE = 2e-3
+MOST_RATE, AGAIN_RATE = 2e-3, 1e-3
+"""From the start, and where it is gone on."""
 PLACE_M, SIZE_M = 0.05, 0.1
 """Units of places and sizes in the answers."""
 LEAST_PX = 25
@@ -30,6 +32,8 @@ LEAST_SHARE, LEAST_OVERLAP, PURE = 0.4, 0.3, 0.65
 over union), or it is none; and where it has less than PURE, it is several at once."""
 SMOOTH = 0.03
 UPRIGHT_COS = 0.7
+SOME = 512
+"""Crops that say what a namer does that is gone on from."""
 
 
 class Learned(NamedTuple):
@@ -158,14 +162,25 @@ def loss(weights: Any, even: Any, batch: Any) -> Any:
 
 
 def learn(
-    given: Lessons, *, steps: int, batch: int, seed: int, minutes: float = math.inf
+    given: Lessons,
+    *,
+    steps: int,
+    batch: int,
+    seed: int,
+    minutes: float = math.inf,
+    since: Path | None = None,
 ) -> Iterator[tuple[float, Learnt]]:
-    """The loss of each step, and what was learnt until then."""
+    """The loss of each step, and what was learnt until then; `since`: a namer to go on from."""
     rng = np.random.default_rng(seed)
     state, one = networks.first(GRAPH, graphs.NAMER_IN, seed), networks.step(loss)
+    if since is not None:
+        some = rng.choice(len(given.names), min(SOME, len(given.names)), replace=False)
+        shown = {graphs.IMAGE: given.planes[some].astype(np.float32),
+                 graphs.NUMBERS: given.numbers[some]}  # fmt: skip
+        state = resuming.read(since, GRAPH, shown)
     order = rng.permutation(len(given.names))
     at = 0
-    for rate in networks.rates(steps, MOST_RATE, minutes):
+    for rate in networks.rates(steps, MOST_RATE if since is None else AGAIN_RATE, minutes):
         if at + batch > len(order):
             order, at = rng.permutation(len(given.names)), 0
         chosen = np.sort(order[at : at + batch])

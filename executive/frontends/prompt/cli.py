@@ -67,6 +67,7 @@ def go_on_with(recorded: Recording, model: Path | None) -> int:
         driver=header.driver,
         fast=header.runtime == "fast",
         vary=header.varied,
+        eyes=header.eyes,
         model=model,
         left_by=recorded.folder,
     )
@@ -147,7 +148,7 @@ def conversation(
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
     where = request.setting(
-        REALITY.under(options.reality),
+        REALITY.under(options.reality, eyes=options.eyes),
         options.world,
         robot=options.robot,
         vary_seed=options.vary_seed,

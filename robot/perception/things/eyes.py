@@ -12,7 +12,7 @@ from robot.perception.things import colours
 from robot.perception.things.crops import CHANNELS as PLANES
 from robot.perception.things.crops import NUMBERS, SIDE_PX, Crop, crop
 from robot.perception.things.inputs import Floats, Sight, sight, tensor
-from robot.perception.things.instances import Instance, instances
+from robot.perception.things.instances import HALF, Instance, instances
 from robot.perception.things.naming import Name, Sure, chances
 from robot.perception.things.networks import Finder, Namer
 from robot.se3 import SE3, Array
@@ -21,7 +21,7 @@ PLACE_M, SIZE_M = 0.05, 0.1
 """Units of places and sizes in what the namer says."""
 LEAST_SIZE_M = 0.005
 LIKELY_NOTHING = 0.5
-UNKNOWN_THING = "thing"
+NO_ODDS = -30.0
 
 
 class SeenThing(NamedTuple):
@@ -74,20 +74,32 @@ class Eyes:
         """Load them. Raises ConfigError if onnxruntime is missing (extra: vision)."""
         self.finder, self.namer = finder or Finder(), namer or Namer()
 
-    def look(self, image: RgbdImage, X_WC: SE3, *, sure: Sure | None = None) -> list[SeenThing]:
+    def look(
+        self,
+        image: RgbdImage,
+        X_WC: SE3,
+        *,
+        sure: Sure | None = None,
+        but: NDArray[np.bool_] | None = None,
+    ) -> list[SeenThing]:
         """The things of a picture, the likeliest first; none where the camera has no depth.
 
         Args:
             image: the picture.
             X_WC: where its camera was.
             sure: what is taken for certain; the namer's own if left out.
+            but: pixels of no thing, as those that show the robot itself, shape (height, width).
         """
         seen = sight(image, X_WC)
         if seen is None:
             return []
+        answers = self.finder(tensor(seen))
+        if but is not None:
+            _, rows, columns = answers.shape
+            answers[0][but[: HALF * rows : HALF, : HALF * columns : HALF]] = NO_ODDS
         found = [
             (one, cut)
-            for one in instances(self.finder(tensor(seen)), seen.depth_m.shape)
+            for one in instances(answers, seen.depth_m.shape)
             if (cut := crop(seen, one.pixels, one.score)) is not None
         ]
         planes = np.zeros((len(found), SIDE_PX, SIDE_PX, PLANES), dtype=np.float32)

@@ -43,6 +43,15 @@ def test_a_folder_comes_before_the_user_and_each_says_where(user, capsys):
     assert settings.values["voice"].origin == f"{user}, line 3"
 
 
+def test_who_finds_the_things_can_be_set_and_is_one_of_two(user):
+    user.write_text('eyes = "camera"\n')
+    assert Defaults(Settings()).of("do") == {"eyes": "camera"}
+    assert Defaults(Settings()).of("parse") == {}
+    user.write_text('eyes = "wide open"\n')
+    with pytest.raises(ConfigError, match="eyes"):
+        Defaults(Settings()).of("do")
+
+
 def test_a_command_takes_what_it_has_options_for(user):
     user.write_text('world = "flat"\nvoice = true\nrobot = "juno"\nseed = 3\n')
     defaults = Defaults(Settings())

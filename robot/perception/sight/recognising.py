@@ -1,0 +1,95 @@
+"""Which of the things that are seen is which of those that were told.
+
+Every told thing is one seen thing at most, and the other way round; what fits none stays what it
+is, an unknown green thing. Where two seen things fit one told thing about as well, it is neither.
+A name stays with the thing that has it, wherever that goes, until it is gone or fits no more.
+"""
+
+# pyright: basic
+# scipy comes without types.
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from robot.messages import ObjectInfo
+from robot.perception.sight.likeness import likeness
+from robot.perception.sight.tracking import Seen
+from robot.perception.things.naming import Classes, Sure
+
+ENOUGH, ENOUGH_AT_ONCE = 0.9, 2.2
+"""Likeness from which on a thing is believed to be that, after two looks and after one."""
+CLEARER = 0.7
+"""By so much it must be likelier than the next thing that nobody has named."""
+STAYS = 2.0
+"""What speaks for the thing that has the name."""
+LEAST = -1.0
+"""Below, the name is taken away again."""
+NO_WAY = -50.0
+
+
+class Recogniser:
+    """The names that were given, by track."""
+
+    def __init__(self, classes: Classes, sure: Sure) -> None:
+        """Know no thing.
+
+        Args:
+            classes: that the namer tells apart.
+            sure: from which probability it is believed.
+        """
+        self._classes, self._sure = classes, sure
+        self._told: tuple[ObjectInfo, ...] = ()
+        self._plurals: Mapping[str, str] = {}
+        self._number: dict[str, int] = {}
+
+    def tell(self, told: tuple[ObjectInfo, ...], plurals: Mapping[str, str]) -> None:
+        """What things there are: by name, category and colour."""
+        self._told, self._plurals = told, plurals
+
+    def number(self, name: str) -> int | None:
+        """The track that has a name."""
+        return self._number.get(name)
+
+    def named(self, tracks: Sequence[Seen]) -> dict[str, Seen]:
+        """Give names to tracks, or leave them; every named one by its id."""
+        there = {track.number for track in tracks}
+        self._number = {id: number for id, number in self._number.items() if number in there}
+        if not tracks or not self._told:
+            return {}
+        fits = np.array(
+            [[self._fit(info, track) for track in tracks] for info in self._told], dtype=np.float64
+        )
+        stays = np.array(
+            [[STAYS * (self._number.get(info.id) == track.number) for track in tracks]
+             for info in self._told]
+        )  # fmt: skip
+        rows, columns = linear_sum_assignment(-np.maximum(fits + stays, NO_WAY))
+        chosen = dict(zip(rows.tolist(), columns.tolist(), strict=True))
+        found: dict[str, Seen] = {}
+        for row, info in enumerate(self._told):
+            column = chosen.get(row)
+            if column is not None and self._is_sure(fits, stays, chosen, row):
+                found[info.id] = tracks[column]
+        self._number = {id: track.number for id, track in found.items()}
+        return found
+
+    def _is_sure(
+        self, fits: np.ndarray, stays: np.ndarray, chosen: Mapping[int, int], row: int
+    ) -> bool:
+        column = chosen[row]
+        if stays[row, column] > 0.0:
+            return bool(fits[row, column] > LEAST)
+        if fits[row, column] < ENOUGH:
+            return False
+        free = [k for k in range(fits.shape[1]) if k not in set(chosen.values())]
+        return all(fits[row, column] - fits[row, k] > CLEARER for k in free)
+
+    def _fit(self, info: ObjectInfo, track: Seen) -> float:
+        plural = self._plurals.get(info.category, f"{info.category}s")
+        fit = likeness(track, info, plural, self._classes, self._sure)
+        is_first = track.looks < 2 and self._number.get(info.id) != track.number
+        return fit - (ENOUGH_AT_ONCE - ENOUGH) if is_first else fit
