@@ -74,6 +74,11 @@ _NO_ORDER = re.compile(
 _SELDOM = re.compile(r"\b(?:why|could|can|will|would|won't|are) (?:do )?(?:you )?(?:not )?$")
 _STATES = re.compile(r"\b(?:i|we|he|she|it|they|there|this|that|who|which)\W+(?:\w+\W+)?$")
 """After one of these a negation tells of something: "it should not be there"."""
+_ASKS = re.compile(
+    r"\b(?:would|could|can|should|might|ought|is|are|was|were|will|has|have|had|does|did) not "
+    r"(?:you|he|she|it|they|we|i|there)\b"
+)
+"""A question, or the tail of what was told: "wouldn't you say". "Don't you touch it" forbids."""
 _TALKS = re.compile(
     r"^\W*(?:(?:please|robot|can you|could you|now)\W+)*(?:translate|spell|define|compose|recite|"
     r"summari[sz]e|rephrase|paraphrase|pronounce|write (?:me )?(?:an?|the|down|about))\b|"
@@ -151,6 +156,7 @@ def _forbidding(heard: str, said: str) -> Iterator[str]:
         word = re.split(r"\W+", before.strip())[-1]
         ahead = before[: -len(word) - 1]
         told = _STATES.search(ahead) or _SELDOM.search(ahead) or _NO_ORDER.match(after)
+        told = told or _ASKS.search(found.group())
         if not told and not re.search(rf"\b{word}\b", said):
             yield " ".join(found.group()[: found.start("after") - found.start()].split()).strip(
                 " ,.;:!?"
@@ -168,7 +174,7 @@ def _doubts(text: str, heard: str, said: str, vocabulary: Vocabulary) -> Iterato
     read = _plain(said)
     direct = read == heard
     no = _NO_VERB.match(heard)
-    if no and direct and verbs_at(no[1].split(), 0):
+    if no and direct and _is_all_forbidden(no[1]):
         yield "no"
     if direct and not {"not", "never", "no"}.isdisjoint(Text(said, vocabulary).words):
         return  # a slip was read as what it is
@@ -180,6 +186,13 @@ def _doubts(text: str, heard: str, said: str, vocabulary: Vocabulary) -> Iterato
             yield found.group()
     if re.search(r"[\"“«].*\w.*[\"”»]\W*(?:is|was|were|means|said|says|sounds)\b", text):
         yield text.strip()
+
+
+def _is_all_forbidden(after: str) -> bool:
+    """Whether a "no" before some words forbids all they ask for: no sentence after it orders."""
+    first, *others = (part.split() for part in re.split(r"[.;!?]", after))
+    ordered = any(verbs_at(part, at) for part in others for at in range(min(2, len(part))))
+    return bool(verbs_at(first, 0)) and not ordered
 
 
 def _slips(text: str, names: NameIndex) -> Iterator[str]:

@@ -53,6 +53,10 @@ ANSWERS = re.compile(
     re.IGNORECASE,
 )
 
+CURE = "What to do"
+"""What introduces a cure, but for a problem outside any file, which has it in brackets behind it."""
+BRACKETED = re.compile(r"^  .*\S \(.*\)$", re.MULTILINE)
+
 
 def broken(case: Case, result: Result, folder: Path) -> list[str]:
     """The properties that a case does not hold to, in words."""
@@ -109,6 +113,7 @@ def _ended(case: Case, result: Result, text: str, folder: Path) -> list[str]:
     flat = re.sub(r"\s+", " ", re.sub(r"[│╭╰─╮╯]", " ", text))
     if says:
         named = any(words in flat for words in says)
+        named = named or (CURE in says and BRACKETED.search(text) is not None)
     elif case.expect is Expect.ENDS or case.streams is not Streams.PIPES:
         named = True
     else:

@@ -37,6 +37,7 @@ GOES_ON = (
     "take note: go to the sofa", "I can't walk, so go to the sofa", "no, go to the sofa",
     "not the stove, go to the sofa", "would you not mind going to the sofa",
     "prevent accidents and go to the sofa", "oot wi ye, go to the sofa",
+    "that is where you belong, wouldn't you say, go to the sofa", "isn't it late, go to the sofa",
 )  # fmt: skip
 
 
@@ -46,6 +47,18 @@ def test_what_forbids_and_was_not_read_is_refused_and_said(said: str) -> None:
     assert isinstance(outcome, Refusal)
     assert outcome.reason.startswith("I heard “")
     assert not outcome.puzzled  # and nobody else is asked to make an order of it
+
+
+def test_a_no_forbids_what_is_told_with_it_and_no_further_sentence() -> None:
+    for said in ("no go to the sofa", "no go to the sofa. Please.", "no go to the sofa! none"):
+        assert not isinstance(cautious(said, said, SOFA, HOME), Goals), said
+    for said in ("no running. go to the sofa", "no smoking in here! Please go to the sofa"):
+        assert cautious(said, said, SOFA, HOME) is SOFA, said
+
+
+def test_never_before_you_forbids_what_a_question_does_not() -> None:
+    assert not isinstance(cautious("don't you go to the sofa", PLAIN, SOFA, HOME), Goals)
+    assert cautious("wouldn't you go to the sofa", PLAIN, SOFA, HOME) is SOFA
 
 
 @pytest.mark.parametrize(("slip", "manner"), list(product(SLIPS, ("", "please ", "robot, "))))
