@@ -54,7 +54,7 @@ ANSWERS = re.compile(
 )
 
 CURE = "What to do"
-"""What introduces a cure, but for a problem outside any file, which has it in brackets behind it."""
+"""Introduces a cure; a problem outside any file has its own in brackets behind it."""
 BRACKETED = re.compile(r"^  .*\S \(.*\)$", re.MULTILINE)
 
 
