@@ -40,6 +40,7 @@ from executive.frontends.panels import Ordered, put_into_panels
 from executive.frontends.past_runs import cli as history
 from executive.frontends.recordings import cli as recordings
 from executive.frontends.recordings import maps_cli, sensors_cli
+from executive.frontends.remote import cli as remotes
 from executive.frontends.service import cli as services
 from executive.frontends.settings import cli as configs
 from executive.frontends.settings.applied import Defaults
@@ -266,6 +267,7 @@ def export(
 
 # After the commands above, so that `--help` lists first what people use first.
 services.register(app)
+remotes.register(app)
 worlds.register(app)
 missions.register(app)
 maps_cli.register(app)

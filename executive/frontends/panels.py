@@ -11,7 +11,7 @@ PANELS = {
     "Tell a robot what to do": ("do", "repl", "listen", "mission", "walk"),
     "A robot that stays up": (
         "up", "say", "status", "queue", "stop", "estop", "pause", "resume", "attach", "logs",
-        "down",
+        "down", "remote",
     ),
     "See what it does, and what it did": (
         "view", "console", "why", "history", "dump", "record", "film", "replay", "runs", "eval",

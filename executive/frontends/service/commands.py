@@ -136,7 +136,9 @@ def down(name: str | None) -> int:
     place = places.find(name)
     running = places.running(place)
     with suppress(Cut), Connection(place) as connection:
-        connection.ask(m.Down(), _tell)
+        refused = connection.ask(m.Down(), _tell).status
+        if refused:
+            return refused
     until_s = time.monotonic() + DOWN_S
     with Screen(err=True).status("coming to a stand"):
         while places.is_up(place):

@@ -20,7 +20,8 @@ MAX_TOLD = 1 << 22
 Button = Literal["stop", "estop", "release", "reset", "pause", "resume", "cancel"]
 BUTTONS: tuple[Button, ...] = get_args(Button)
 Text = Annotated[str, Meta(max_length=MAX_TEXT)]
-Reason = Annotated[str, Meta(max_length=100)]
+MAX_REASON = 100
+Reason = Annotated[str, Meta(max_length=MAX_REASON)]
 
 
 class _Request(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True,

@@ -35,6 +35,7 @@ TAKERS: dict[str, tuple[str, tuple[str, ...]]] = {
     "eval-mission": ("m.yaml", ("eval", "m.yaml", "--seeds", "1")),
     "do-voice-model": ("v.onnx", ("do", "--fast", "--voice-model", "v.onnx", "fly away")),
     "people-log": ("l.npz", ("people", "--json", "--log", "l.npz")),
+    "remote-join": ("a.invitation", ("remote", "join", "a.invitation")),
     "detect-labels": ("n.yaml", ("detect", "a.png", "--model", "m.onnx", "--labels", "n.yaml")),
 }
 """Every option and argument that takes a file: its name, and the command."""

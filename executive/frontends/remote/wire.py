@@ -1,0 +1,78 @@
+"""What goes over the link beside requests, and what a role may ask.
+
+A link carries the lines of `executive.frontends.service.messages`, and two more: a beat, ten times
+a second, by which the gate knows that the link holds, and a goodbye, after which it need not. The
+gate answers each beat, so that the other end knows the same.
+"""
+
+from __future__ import annotations
+
+import re
+
+import msgspec
+
+from executive.frontends.remote.invitation import Role
+from executive.frontends.service import messages as m
+from intents.stopping import is_stop
+
+BEAT_S = 0.1
+LOST_S = 0.35
+"""A link that is silent for so long is lost: the stop is given within 0.5 s of its last beat."""
+ANYBODYS: tuple[m.Button, ...] = ("stop", "estop", "pause")
+"""What everybody may press who was let in."""
+NOBODYS: tuple[m.Button, ...] = ("release", "reset")
+"""Whoever undoes an emergency stop has to see the robot, and who stands near it."""
+_LETTERS = re.compile(r"[^a-z]+")
+
+
+class Beat(msgspec.Struct, frozen=True, tag_field="ask", tag="beat", forbid_unknown_fields=True):
+    """The link holds."""
+
+
+class Bye(msgspec.Struct, frozen=True, tag_field="ask", tag="bye", forbid_unknown_fields=True):
+    """The link is ended on purpose: the robot goes on."""
+
+
+_lines = msgspec.json.Decoder(m.Request | Beat | Bye)
+BEAT, BYE = msgspec.json.encode(Beat()) + b"\n", msgspec.json.encode(Bye()) + b"\n"
+ECHO = b'{"tell":"beat"}\n'
+
+
+def line(data: bytes) -> m.Request | Beat | Bye:
+    """What a line over the link says. Raises msgspec.DecodeError, RecursionError."""
+    return _lines.decode(data)
+
+
+def refusal(role: Role, asked: m.Request) -> str:
+    """Why a role may not ask something, as a sentence with its cure; empty: it may."""
+    match asked:
+        case m.Press(button=button) if button in NOBODYS:
+            return f"estop {button} is for somebody who stands at the robot."
+        case m.Down():
+            return "Only at the robot itself it is ended; `humanoid stop` stops it from here."
+        case m.Say(text=text) if _undoes(text):
+            return "An emergency stop is undone by somebody who stands at the robot."
+        case m.Press(button=button) if button in ANYBODYS:
+            return ""
+        case m.Say(text=text) | m.Halt(text=text) if is_stop(text) or _is_estop(text):
+            return ""
+        case m.Status() | m.Halt():
+            return ""
+        case m.Queue() | m.Watch() | m.Await() if role != "stop":
+            return ""
+        case _ if role == "command":
+            return ""
+        case _:
+            return (
+                f"This invitation is for the role {role}, which may not do that; "
+                "one for `--role command` may."
+            )
+
+
+def _is_estop(text: str) -> bool:
+    return _LETTERS.sub("", text.casefold()).startswith("estop")
+
+
+def _undoes(text: str) -> bool:
+    """Whether a line may undo an emergency stop, however it is written."""
+    return _is_estop(text) and bool(re.search(r"release|reset", text.casefold()))

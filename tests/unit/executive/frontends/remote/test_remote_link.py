@@ -1,0 +1,401 @@
+"""From another machine: the same requests, by role; a lost link stops what came by it."""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+import ssl
+import threading
+from contextlib import ExitStack, contextmanager, suppress
+from datetime import UTC, datetime, timedelta
+
+import msgspec
+import pytest
+
+from executive.frontends.remote import gate as gates
+from executive.frontends.remote import invitation as invitations
+from executive.frontends.remote import wire
+from executive.frontends.remote.authority import Authority, utc_now
+from executive.frontends.remote.gate import Gate
+from executive.frontends.remote.relay import Relay
+from executive.frontends.service import client as clients
+from executive.frontends.service import commands
+from executive.frontends.service import messages as m
+from executive.frontends.service import place as places
+from executive.frontends.service.client import Connection, Cut, Silent
+from executive.frontends.service.counter import Counter
+from executive.frontends.service.place import Running, claimed
+from robot.errors import ConfigError, RobotError
+from robot.exit_status import ExitStatus
+from tests.fakes.steered import Log, Told
+from tests.fakes.waiting import HANG_S, eventually
+
+
+@contextmanager
+def going_on(work):
+    """A coroutine in an event loop of its own, in a thread; cancelled in the end."""
+    loop, ended = asyncio.new_event_loop(), []
+    task = loop.create_task(work)
+
+    def run():
+        with suppress(asyncio.CancelledError):
+            try:
+                loop.run_until_complete(task)
+            except RobotError as error:
+                ended.append(error)
+        loop.run_until_complete(loop.shutdown_default_executor())
+        loop.close()
+
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    try:
+        yield ended
+    finally:
+        with suppress(RuntimeError):
+            loop.call_soon_threadsafe(task.cancel)
+        thread.join()
+
+
+class Network:
+    """A way between relay and gate that can fail: it loses all, or ends."""
+
+    def __init__(self, port):
+        self._port = port
+        self._listening = socket.create_server(("127.0.0.1", 0))
+        self.port = self._listening.getsockname()[1]
+        self.is_dead = False
+        self._ends: list[socket.socket] = []
+        threading.Thread(target=self._accept, daemon=True).start()
+
+    def _accept(self):
+        with suppress(OSError):
+            while True:
+                near, _ = self._listening.accept()
+                far = socket.create_connection(("127.0.0.1", self._port))
+                self._ends += [near, far]
+                for one, other in ((near, far), (far, near)):
+                    threading.Thread(target=self._pass, args=(one, other), daemon=True).start()
+
+    def _pass(self, one, other):
+        with suppress(OSError):
+            while data := one.recv(1 << 16):
+                if not self.is_dead:  # nobody is told
+                    other.sendall(data)
+            other.shutdown(socket.SHUT_WR)
+
+    def cut(self):
+        for end in self._ends:
+            with suppress(OSError):
+                end.shutdown(socket.SHUT_RDWR)
+        self._ends.clear()
+
+    def close(self):
+        with suppress(OSError):
+            self._listening.shutdown(socket.SHUT_RDWR)
+        self._listening.close()
+        self.cut()
+
+
+class House:
+    """A robot with a gate; whom it invites may join it, by a network that fails on request."""
+
+    def __init__(self, folder):
+        self.told, self.said = Told(), list[str]()
+        self.now = utc_now()
+        self.authority = Authority(folder / "remote", now=lambda: self.now)
+        self.authority.invite("owner", "command", host="localhost", port=1, days=9)
+        self._stack = ExitStack()
+
+    def __enter__(self):
+        place = self._stack.enter_context(claimed("robot"))
+        running = Running(pid=7, run="r", private="", world="w", robot="juno", runtime="live")
+        self._stack.enter_context(Counter(self.told, place=place, running=running, log=Log()))
+        listening = self._stack.enter_context(socket.create_server(("127.0.0.1", 0)))
+        self.port = listening.getsockname()[1]
+        self.network = Network(self.port)
+        self._stack.callback(self.network.close)
+        gate = Gate(place, self.authority, listening, tell=self.said.append)
+        self._stack.enter_context(going_on(gate.run()))
+        return self
+
+    def __exit__(self, *error):
+        self._stack.close()
+
+    def invite(self, name, role, **more):
+        port = self.network.port
+        made = self.authority.invite(name, role, host="127.0.0.1", port=port, days=9)
+        return msgspec.structs.replace(made, **more)
+
+    @contextmanager
+    def joined(self, invitation):
+        words: list[str] = []
+        with claimed(invitation.name) as place:
+            relay = Relay(place, invitation, tell=words.append)
+            with going_on(relay.run()) as ended:
+                assert eventually(lambda: ended or places.running(place))
+                yield place, words, ended
+
+    @contextmanager
+    def visited(self, name="anna", role="command"):
+        with self.joined(self.invite(name, role)) as (place, words, ended):
+            assert not ended
+            self.told.did.clear()  # what joining asked
+            yield place, words
+
+
+@pytest.fixture
+def house(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_RUNTIME_DIR", "")
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    with House(tmp_path) as made:
+        yield made
+
+
+def ask(place, request):
+    words: list[str] = []
+
+    def hear(told):
+        words.append(told.text if isinstance(told, m.Words) else "")
+
+    with Connection(place) as connection:
+        return connection.ask(request, hear, wait_s=HANG_S), words
+
+
+def test_what_is_said_from_afar_is_done_as_here(house):
+    with house.visited() as (place, words):
+        assert ask(place, m.Say(text="go to the table"))[0].status == ExitStatus.DONE
+        assert house.told.did == ["go to the table (0)"]
+        assert ask(place, m.Say(text="nonsense"))[0].status == ExitStatus.INVALID
+        assert ask(place, m.Say(text="where are you?"))[1] == ["Here."]
+        standing = ask(place, m.Status())[0].standing
+        assert (standing.robot, standing.world) == ("juno", "w")
+    assert words[0].startswith("anna is juno in w")
+
+
+@pytest.mark.parametrize("role", ["watch", "command", "stop"])
+@pytest.mark.parametrize("button", ["stop", "estop"])
+def test_everybody_who_is_in_stops_it(house, role, button):
+    with house.visited(role=role) as (place, _):
+        assert clients.press(place, button, lambda _: None).status == ExitStatus.DONE
+        assert house.told.did == [button]
+
+
+def test_a_stop_does_not_wait_for_a_line_that_is_worked_off(house):
+    house.told.go_on.clear()
+    with house.visited() as (place, _), Connection(place) as busy:
+        busy.send(m.Say(text="something long"))
+        assert ask(place, m.Press(button="stop"))[0].status == ExitStatus.DONE
+        assert house.told.did == ["stop"]
+        house.told.go_on.set()
+
+
+def test_who_watches_commands_nothing_and_is_told_why(house):
+    with house.visited(role="watch") as (place, _):
+        ended, words = ask(place, m.Say(text="go to the table"))
+        assert ended.status == ExitStatus.INVALID
+        assert "role watch" in words[0]
+        assert house.told.did == []
+
+
+@pytest.mark.parametrize("asked", [m.Press(button="reset"), m.Say(text="estop reset")])
+def test_an_emergency_stop_is_not_undone_from_afar(house, asked):
+    with house.visited() as (place, _):
+        ended, words = ask(place, asked)
+        assert (ended.status, house.told.did) == (ExitStatus.INVALID, [])
+        assert "stands at the robot" in words[0]
+
+
+def test_a_robot_is_not_ended_from_afar_and_nobody_waits_for_that(house, monkeypatch):
+    monkeypatch.setattr(commands, "say", lambda text, err=False: None)
+    with house.visited() as (place, _):
+        assert commands.down(place.name) == ExitStatus.INVALID
+
+
+@pytest.mark.parametrize("how", ["cut", "dead"])
+def test_a_lost_link_stops_what_came_by_it(house, how):
+    with house.visited() as (place, _):
+        ask(place, m.Say(text="go to the table"))
+        house.told.did.clear()
+        if how == "dead":
+            house.network.is_dead = True
+        else:
+            house.network.cut()
+        assert eventually(lambda: len(house.told.did) == 2)
+    assert house.told.did == ["goals", "stop"]
+
+
+@pytest.mark.parametrize("how", ["cut", "dead"])
+def test_a_lost_link_stops_nothing_that_came_from_elsewhere(house, how):
+    robot = next(one for one in places.places_up() if one.name == "robot")
+    with house.visited() as (place, words):
+        ask(robot, m.Say(text="go to the table"))  # of somebody who stands there
+        ask(place, m.Status())
+        house.told.did.clear()
+        if how == "dead":
+            house.network.is_dead = True
+        else:
+            house.network.cut()
+        assert eventually(lambda: any("is lost" in text for text in words))
+        house.network.is_dead = False
+    assert house.told.did == []
+
+
+def test_a_line_that_is_worked_off_still_is_stopped_with_its_link(house):
+    house.told.go_on.clear()
+    with house.visited() as (place, _):
+        with Connection(place) as connection:
+            connection.send(m.Say(text="something long"))
+            assert eventually(lambda: any("something long" in text for text in house.told.said))
+        house.network.cut()
+        assert eventually(lambda: house.told.did)
+        assert house.told.did == ["stop"]
+        house.told.go_on.set()
+
+
+def test_who_leaves_on_purpose_leaves_the_robot_as_it_is(house):
+    with house.visited() as (place, _):
+        ask(place, m.Say(text="go to the table"))
+        house.told.did.clear()
+    assert house.told.did == []
+
+
+def test_a_gate_that_closes_stops_what_came_by_it(house):
+    with house.visited() as (place, _):
+        ask(place, m.Say(text="go to the table"))
+        house.told.did.clear()
+        house.__exit__()
+        assert house.told.did[:2] == ["goals", "stop"]
+
+
+def test_a_link_comes_back(house):
+    with house.visited() as (place, words):
+        house.network.cut()
+        assert eventually(lambda: any("is lost" in text for text in words))
+        assert eventually(lambda: ask(place, m.Status())[0].standing)
+
+
+def test_a_dead_network_is_told_and_not_waited_for(house):
+    with house.visited() as (place, _):
+        house.network.close()
+        assert eventually(lambda: ask(place, m.Press(button="stop"))[0].status)
+
+
+def test_who_is_revoked_is_let_go(house):
+    with house.visited() as (place, words):
+        assert ask(place, m.Status())[0].standing
+        house.authority.revoke("anna")
+        assert eventually(lambda: any("is lost" in text for text in words))
+        with suppress(Cut, Silent):
+            assert ask(place, m.Status())[0].status == ExitStatus.BROKEN
+    assert "worth nothing" in house.said[-1]
+
+
+def test_who_speaks_without_a_link_that_is_watched_is_not_heeded(house):
+    anna = house.invite("anna", "command")
+    context = invitations.client_context(anna)
+    with (
+        socket.create_connection(("127.0.0.1", house.port)) as plain,
+        context.wrap_socket(plain, server_hostname=invitations.SERVER_NAME) as tls,
+    ):
+        tls.sendall(m.line_of(m.Say(number=1, text="go to the table")))
+        words = m.told(tls.makefile("rb").readline())
+        assert isinstance(words, m.Words)
+        assert "remote join" in words.text
+        tls.sendall(m.line_of(m.Press(number=2, button="stop")))  # but for a stop
+        assert eventually(lambda: house.told.did == ["stop"])
+
+
+# --- who is nobody --------------------------------------------------------------------------------
+
+
+def stranger(folder, **more):
+    made = Authority(folder).invite("anna", "command", host="127.0.0.1", port=1, days=9)
+    return msgspec.structs.replace(made, **more)
+
+
+def is_let_in(house, context):
+    """Whether a request is answered: TLS 1.3 refuses a certificate only after the handshake."""
+    with suppress(OSError):
+        plain = socket.create_connection(("127.0.0.1", house.port))
+        with context.wrap_socket(plain, server_hostname=invitations.SERVER_NAME) as tls:
+            tls.sendall(m.line_of(m.Press(number=1, button="stop")))
+            return bool(tls.recv(1))
+    return False
+
+
+def test_without_a_certificate_of_ours_nobody_gets_in(house, tmp_path):
+    anna = house.invite("anna", "command")
+    assert is_let_in(house, invitations.client_context(anna))
+    house.told.did.clear()
+    bare = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+    bare.load_verify_locations(cadata=anna.authority)
+    other = stranger(tmp_path / "other", authority=anna.authority)
+    old = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+    old.maximum_version = ssl.TLSVersion.TLSv1_2
+    old.load_verify_locations(cadata=anna.authority)
+    invitations.load_chain(old, certificate=anna.certificate, key=anna.key)
+    for context in (bare, invitations.client_context(other), old):
+        assert not is_let_in(house, context)
+    assert house.told.did == []
+
+
+def test_an_expired_certificate_is_worth_nothing(house):
+    house.now = datetime(2020, 1, 1, tzinfo=UTC)
+    anna = house.invite("anna", "command")
+    house.now = utc_now()
+    assert not is_let_in(house, invitations.client_context(anna))
+    ben = house.invite("ben", "command")
+    house.now += timedelta(days=10)  # over by the list; the certificate goes by the system's clock
+    assert not is_let_in(house, invitations.client_context(ben))
+    assert house.told.did == []
+
+
+def test_a_gate_that_is_not_the_inviter_is_not_joined(house, tmp_path):
+    mine = house.invite("anna", "command")
+    other = stranger(tmp_path / "other", port=house.network.port)
+    with house.joined(msgspec.structs.replace(mine, authority=other.authority)) as (_, _, ended):
+        assert eventually(lambda: ended)
+    assert isinstance(ended[0], ConfigError)
+    assert "not whom the invitation is from" in str(ended[0])
+
+
+def test_no_guest_can_pose_as_the_gate(house):
+    anna, ben = house.invite("anna", "command"), house.invite("ben", "command")
+    posing = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+    invitations.load_chain(posing, certificate=ben.certificate, key=ben.key)
+    one, other = socket.socketpair()
+
+    def pose():
+        with suppress(OSError), posing.wrap_socket(other, server_side=True):
+            pass
+
+    thread = threading.Thread(target=pose)
+    thread.start()
+    with pytest.raises(ssl.SSLCertVerificationError):
+        invitations.client_context(anna).wrap_socket(one, server_hostname=invitations.SERVER_NAME)
+    one.close()
+    thread.join()
+
+
+def test_a_crowd_at_the_door_keeps_out_nobody_who_is_in(house):
+    with house.visited() as (place, _):
+        crowd = []
+        for _ in range(3 * gates.MOST_SHAKING):
+            with suppress(OSError):
+                crowd.append(socket.create_connection(("127.0.0.1", house.port)))
+        for one in crowd:
+            one.close()
+        assert eventually(lambda: ask(place, m.Press(button="stop"))[0].status == ExitStatus.DONE)
+
+
+@pytest.mark.parametrize(
+    "data", [b"\n", b"{}\n", b"\xff\n", b"[" * 60_000 + b"\n", b"a" * 2_000_000, wire.BEAT * 20_000]
+)
+def test_whoever_is_in_and_talks_rubbish_is_let_go_alone(house, data):
+    ben = invitations.client_context(house.invite("ben", "command"))
+    with house.visited() as (place, _):
+        with suppress(OSError):
+            plain = socket.create_connection(("127.0.0.1", house.port))
+            with ben.wrap_socket(plain, server_hostname=invitations.SERVER_NAME) as tls:
+                tls.sendall(data)
+        assert ask(place, m.Status())[0].standing

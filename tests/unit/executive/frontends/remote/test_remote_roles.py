@@ -1,0 +1,60 @@
+"""Everybody may stop; nobody undoes an emergency stop from afar; a role may what it says."""
+
+from __future__ import annotations
+
+from typing import get_args
+
+import msgspec
+import pytest
+
+from executive.frontends.remote import wire
+from executive.frontends.remote.invitation import ROLES, Role
+from executive.frontends.service import messages as m
+
+STOPS = (
+    m.Press(button="stop"), m.Press(button="estop"), m.Press(button="pause"), m.Halt(text="wait"),
+    m.Say(text="stop"), m.Say(text="STOP!!"), m.Say(text="estop"), m.Say(text="freeze"),
+)  # fmt: skip
+FOR_NOBODY = (
+    m.Press(button="release"), m.Press(button="reset"), m.Down(), m.Say(text="estop reset"),
+    m.Say(text=" eStop   RELEASE"), m.Say(text="e-stop\treset"), m.Say(text="es\u200btop reset"),
+    m.Say(text="estop\x1b[31m reset"),
+)  # fmt: skip
+ORDERS = (
+    m.Say(text="go to the table"), m.Say(text="resume"), m.Press(button="resume"),
+    m.Press(button="cancel"),
+)  # fmt: skip
+LOOKS = (m.Queue(), m.Watch(views=True), m.Await(jobs=(1,)))
+
+
+def may(role: Role) -> set[m.Request]:
+    asked = (*STOPS, *FOR_NOBODY, *ORDERS, *LOOKS, m.Status())
+    return {one for one in asked if not wire.refusal(role, one)}
+
+
+def test_roles_may_what_they_say_and_no_more():
+    assert set(get_args(Role)) == set(ROLES)
+    assert may("stop") == {*STOPS, m.Status()}
+    assert may("watch") == {*STOPS, *LOOKS, m.Status()}
+    assert may("command") == {*STOPS, *LOOKS, *ORDERS, m.Status()}
+
+
+def test_every_request_is_thought_of():
+    kinds = {type(one) for one in (*STOPS, *FOR_NOBODY, *ORDERS, *LOOKS, m.Status())}
+    assert kinds == set(get_args(m.Request))
+
+
+@pytest.mark.parametrize("asked", [wire.Beat(), wire.Bye(), m.Status(number=3), *STOPS])
+def test_lines_over_the_link_are_what_they_were(asked):
+    assert wire.line(msgspec.json.encode(asked)) == asked
+
+
+@pytest.mark.parametrize("data", [b"", b"{}", b'{"ask":"beat","x":1}', b"[" * 5000, b'"\xff"'])
+def test_other_lines_are_none(data):
+    with pytest.raises((msgspec.DecodeError, RecursionError)):
+        wire.line(data)
+
+
+def test_a_terminal_passes_over_what_answers_a_beat():
+    with pytest.raises(msgspec.DecodeError):
+        m.told(wire.ECHO)
