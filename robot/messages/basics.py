@@ -1,0 +1,20 @@
+"""What all messages share, and the closed sets of words in them."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+
+Side = Literal["left", "right"]
+Mode = Literal["damping", "stand", "walk", "fallen", "rising"]
+Channel = Literal["legs", "waist", "head", "left_arm", "right_arm", "left_hand", "right_hand"]
+Source = Literal["oracle", "emulated", "sensor", "estimate"]
+EyesBy = Literal["oracle", "camera"]
+"""Who tells where the things are: the simulator, or what the robot sees in its own pictures."""
+
+
+class Message(msgspec.Struct, frozen=True, kw_only=True):
+    """A message; `stamp_s` is the sender's clock when the content was true."""
+
+    stamp_s: float
