@@ -34,6 +34,8 @@ stay clear of the table."""
 UPRIGHT_COS = 0.95
 HEADINGS_RAD = tuple(math.tau * k / 16 for k in range(16))
 """From where a hand comes to what is round and has a handle."""
+OVER_RIM_TILTS_RAD, OVER_RIM_COST = (0.95, 1.2), 0.45
+"""Of a hand that comes over a rim from above, where a handle would be at its palm otherwise."""
 OFF_MIDDLE_COST_PER_M = 1.0
 """Of a piece that is so far from the middle of the whole: what is held there turns in the hand."""
 
@@ -125,8 +127,8 @@ def _on_pieces(
             ways = [
                 way
                 for heading in headings
-                for way in _standing_cylinder(
-                    part, X_WO, X_WPiece, gripping, heading=heading, below_m=below_m
+                for way in _around_piece(
+                    shape, part, X_WO, X_WPiece, gripping, heading=heading, below_m=below_m
                 )
             ]
         else:
@@ -138,6 +140,41 @@ def _on_pieces(
             if _keeps_off(way, shape, gripping)
         ]
     return found
+
+
+def _around_piece(
+    shape: Shape,
+    part: Shape,
+    X_WO: SE3,
+    X_WPiece: SE3,
+    gripping: Gripping,
+    *,
+    heading: float | None,
+    below_m: float,
+) -> list[HandOption]:
+    """Ways from one side that keep off what sticks out; over the rim where none of them is level.
+
+    A mug that turns its handle to the robot, a wall behind it, is taken like that.
+    """
+    found = _standing_cylinder(part, X_WO, X_WPiece, gripping, heading=heading, below_m=below_m)
+    found = [way for way in found if _keeps_off(way, shape, gripping)]
+    if heading is None or any(way.R0[2, 0] == 0.0 for way in found):
+        return found
+    diameter, _, height = part.size_m
+    return found + [
+        _option(
+            X_WO,
+            np.array(X_WPiece.p),
+            gripping,
+            heading=heading,
+            tilt=tilt,
+            lift=_lifts(height, gripping, below_m)[-1][0],
+            depth=0.5 * diameter,
+            width=diameter,
+            cost=OVER_RIM_COST,
+        )
+        for tilt in OVER_RIM_TILTS_RAD
+    ]
 
 
 def _keeps_off(option: HandOption, shape: Shape, gripping: Gripping) -> bool:

@@ -16,23 +16,23 @@ _WORD = re.compile(r"[^\W\d_]+")
 
 
 class Habit(msgspec.Struct, frozen=True, kw_only=True):
-    """Words for things, and words for the rooms that they are kept in."""
+    """Words for things, and words for the rooms and furniture that they are kept in.
+
+    What is `vague` (cans, bottles) says where only if no other word of a name does.
+    """
 
     things: tuple[str, ...]
     rooms: tuple[str, ...]
+    vague: bool = False
 
 
-def usual_rooms(info: ObjectInfo, world_map: WorldMap) -> frozenset[str]:
-    """Ids of the rooms of a map in which people would keep an object."""
+def usual_places(info: ObjectInfo, world_map: WorldMap) -> frozenset[str]:
+    """Ids of the rooms and surfaces of a map in which, or on which, people would keep an object."""
     named = words((info.plain_name, info.category, *info.synonyms))
-    kept = {
-        room for habit in _habits() if not named.isdisjoint(habit.things) for room in habit.rooms
-    }
-    return frozenset(
-        place.id
-        for place in world_map.places
-        if place.floor and not kept.isdisjoint(_called(place))
-    )
+    telling = [habit for habit in _habits() if not named.isdisjoint(habit.things)]
+    telling = [habit for habit in telling if not habit.vague] or telling
+    kept = {room for habit in telling for room in habit.rooms}
+    return frozenset(place.id for place in world_map.places if not kept.isdisjoint(_called(place)))
 
 
 def words(names: Iterable[str]) -> frozenset[str]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from executive.skills.motions.habits import usual_rooms
+from executive.skills.motions.habits import usual_places
 from executive.skills.motions.support import stands_on
 from executive.skills.motions.survey import Prospect
 from robot.messages import ObjectInfo, Place, Track, WorldMap
@@ -26,7 +26,7 @@ SAME_WORD = 6.0
 ALIKE_HERE, ALIKE_NEAR = 3.0, 1.5
 """Others of its sort were seen on the surface, or in the same room."""
 KEPT_THERE = 4.0
-"""Mugs are kept in kitchens."""
+"""Mugs are kept in kitchens, glue on workbenches."""
 SHORTEST_WORD = 4
 SAID, LIKELY, UNLIKELY = range(3)
 """Ranks: where it was said to be, then where it may well be, then everywhere else."""
@@ -48,7 +48,7 @@ def prospects(
         for place in surfaces
         if any(other.category == info.category for other in here.get(place.id, ()))
     }
-    kept = usual_rooms(info, world_map)
+    kept = usual_places(info, world_map)
     wanted = frozenset(said)
     found: list[Prospect] = []
     for place in surfaces:
@@ -57,7 +57,7 @@ def prospects(
         alike = any(other.category == info.category for other in things)
         near = ALIKE_NEAR if place.room and place.room in rooms else 1.0
         worth = _usual(place) * (ALIKE_HERE if alike else near)
-        worth *= KEPT_THERE if place.room in kept else 1.0
+        worth *= KEPT_THERE if place.room in kept or place.id in kept else 1.0
         found.append(Prospect(place=place, worth=worth * _same_word(info, place), rank=rank))
     return found
 

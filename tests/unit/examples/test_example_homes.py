@@ -16,8 +16,13 @@ from sim.simulation import Simulation
 
 FOLDER = Path(__file__).parents[3] / "examples" / "homes"
 EXAMS = sorted(FOLDER.glob("*.tasks.yaml"))
-WAITING = "ask Nurse Kim if she needs anything"
-"""Nobody can be asked on behalf of somebody else yet."""
+WAITING = {
+    "ask Nurse Kim if she needs anything": "nobody can be asked on behalf of somebody else yet",
+    "the blue mug and the red mug belong on the deck table, take them there please": "asked back",
+    "how many apples have we got on board?": "a board is taken for one of a shelf, and asked for",
+    "tell the librarian that the printer is out of paper": "refused as something to find out",
+}
+"""Wishes as they were typed that are not understood yet, and how they end."""
 
 
 @pytest.fixture(scope="module", params=EXAMS, ids=lambda path: path.name)
@@ -36,7 +41,8 @@ def test_what_is_wished_is_understood(cases: tuple[Case, ...]):
     names, context = knowledge.vocabulary(), Context(entities=knowledge.entities())
     for case in cases:
         outcome = parse(case.mission, names, context=context)
-        assert isinstance(outcome, Goals) or case.mission == WAITING, (case.mission, outcome)
+        understood = isinstance(outcome, Goals)
+        assert understood != (case.mission in WAITING), (case.mission, outcome)
 
 
 def test_things_stand_apart(cases: tuple[Case, ...]):

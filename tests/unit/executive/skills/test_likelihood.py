@@ -2,7 +2,7 @@
 
 import msgspec
 
-from executive.skills.motions.habits import usual_rooms
+from executive.skills.motions.habits import usual_places
 from executive.skills.motions.likelihood import LIKELY, SAID, UNLIKELY, prospects
 from executive.skills.motions.survey import Prospect
 from robot.messages import ObjectInfo, Place, Shape, Track, WorldMap
@@ -108,9 +108,25 @@ def test_things_are_kept_where_people_keep_such_things() -> None:
 
     assert best(thing("blue mug", "mug")) == "worktop"
     assert best(thing("red stapler", "stapler")) == "desk"
-    assert usual_rooms(thing("gizmo", "gizmo"), home) == frozenset()
+    assert usual_places(thing("gizmo", "gizmo"), home) == frozenset()
+
+
+def test_furniture_says_what_it_is_for_wherever_it_stands() -> None:
+    bench = surface("workbench", "table", 0.0, 0.92)
+    home = msgspec.structs.replace(
+        MAP, places=(room("bedroom"), msgspec.structs.replace(bench, room="bedroom"))
+    )
+    assert usual_places(thing("wood glue", "bottle"), home) == {"workbench"}
+
+
+def test_what_is_in_a_can_says_more_than_the_can() -> None:
+    """A can of varnish was looked for in the whole galley first."""
+    home = msgspec.structs.replace(MAP, places=(room("kitchen"), room("workshop")))
+    assert usual_places(thing("varnish can", "can"), home) == {"workshop"}
+    assert usual_places(thing("cola can", "can"), home) == {"kitchen"}
+    assert usual_places(thing("green can", "can"), home) == {"kitchen"}
 
 
 def test_a_plural_is_kept_where_one_is() -> None:
     home = msgspec.structs.replace(MAP, places=(room("office"),))
-    assert usual_rooms(thing("staplers", "thing"), home) == {"office"}
+    assert usual_places(thing("staplers", "thing"), home) == {"office"}

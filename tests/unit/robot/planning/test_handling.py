@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from robot.failures import Failure
-from robot.messages import PersonInfo, Shape, Side
+from robot.messages import PersonInfo, Piece, Shape, Side
 from robot.planning import handling
 from robot.planning.checks import END
 from robot.planning.floor import Floor
@@ -66,6 +66,26 @@ def on_a_counter(height: float, deep: float) -> Surroundings:
     wall = block("wall", 2.13, -2.0, (0.04, 1.40, 1.5))
     cup = ObjectPose(id="cup", shape=CUP, X_WO=SE3((1.2 + deep, -2.0, height + 0.05)))
     return Surroundings(map=room(counter, wall), objects=(cup,))
+
+
+@pytest.mark.parametrize("turn_rad", [math.pi, 2.6])
+def test_a_mug_that_turns_its_handle_to_the_robot_is_taken(solver: Solver, turn_rad: float) -> None:
+    """A wall behind it: no hand comes from the other side."""
+    handle = Piece(
+        kind="box", size_m=(0.03, 0.01, 0.06), X_ShapePiece=SE3((0.055, 0, 0)), is_held=False
+    )
+    mug = Shape(
+        kind="cylinder",
+        size_m=(0.08, 0.08, 0.10),
+        pieces=(Piece(kind="cylinder", size_m=(0.08, 0.08, 0.10)), handle),
+    )
+    around = on_a_counter(0.75, 0.15)
+    thing = around.objects[0]
+    turned = SE3.from_xy_yaw(*thing.X_WO.p[:2], turn_rad, z_m=thing.X_WO.p[2])
+    thing = msgspec.structs.replace(thing, shape=mug, X_WO=turned)
+    around = msgspec.structs.replace(around, objects=(thing,))
+    plan = pick(solver, around)
+    assert isinstance(plan, PickPlan), plan
 
 
 def check_standing(body: Body, around: Surroundings, plan: PickPlan | PlacePlan) -> None:
