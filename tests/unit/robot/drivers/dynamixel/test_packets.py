@@ -1,4 +1,4 @@
-"""Packets of Protocol 2.0: the e-manual's own examples, properties, and what a line can do to them."""
+"""Packets of Protocol 2.0: the e-manual's examples, properties, and what a line does to them."""
 
 import random
 
