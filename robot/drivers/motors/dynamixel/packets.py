@@ -203,4 +203,3 @@ class Receiver:
     def _drop(self, count: int) -> None:
         self.noise += count
         del self._bytes[:count]
-
