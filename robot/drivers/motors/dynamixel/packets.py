@@ -175,23 +175,23 @@ class Receiver:
     def _parts(self, raw: bytes, *, is_whole: bool) -> list[Status]:
         """Servos of a fast status packet; of a broken one those whose own CRC is right.
 
-        A part is error, id, data, CRC; that CRC is over all bytes of the packet before it. Nothing
-        in it is stuffed: its length is said before anybody knows what the others will say.
+        A part is error, id, data, CRC; that CRC is over all bytes of the packet before it. Where a
+        part is spoilt, the CRC that stands behind it is where that of the next one goes on from.
+        Nothing is stuffed: the length is said before anybody knows what the others will say.
         """
-        size = self._size or 0
-        step, at = size + _PART_FRAME, _BEFORE_LENGTH_ENDS + 1
-        if (raw[5] | raw[6] << 8) != 1 + step * ((raw[5] | raw[6] << 8) // step):
+        step, at = (self._size or 0) + _PART_FRAME, _BEFORE_LENGTH_ENDS + 1
+        if ((raw[5] | raw[6] << 8) - 1) % step:
             return []
         parts: list[Status] = []
-        crc = done = 0
+        crc = 0 if is_whole else crc16(raw[:at])
         while at + step <= len(raw):
             end = at + step - 2
-            if not is_whole:
-                crc, done = crc16(memoryview(raw)[done:end], crc), end
-                if crc != raw[end] | raw[end + 1] << 8:
-                    break
-            error, number = raw[at], raw[at + 1]
-            parts.append(Status(number, error & ~ALERT, bool(error & ALERT), raw[at + 2 : end]))
+            told = raw[end] | raw[end + 1] << 8
+            if is_whole or crc16(raw[at:end], crc) == told:
+                error = raw[at]
+                one = Status(raw[at + 1], error & ~ALERT, bool(error & ALERT), raw[at + 2 : end])
+                parts.append(one)
+            crc = 0 if is_whole else crc16(raw[end : end + 2], told)
             at += step
         return parts
 
