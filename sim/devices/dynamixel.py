@@ -99,9 +99,10 @@ class Servo:
         self.volts = self.kind.volts
         self.tau_nm = 0.0
         self._lived_s = self._heard_s = self.now_s
-        self._turns = 0
+        self._turns, self._known = 0, -1
         self._wrap()
         self._begin()
+        self._learn()
 
     def suffer(self, flaw: Flaw) -> None:
         """Have something wrong; what `twin` means is up to who builds the line."""
@@ -183,64 +184,74 @@ class Servo:
 
     def live(self, until_s: float) -> None:
         """Let time go by up to a moment, in whole steps of its shaft."""
-        span_s = self.shaft.step_s
+        span_s, shaft = self.shaft.step_s, self.shaft
         while self._lived_s + span_s <= until_s + SAME_S:
             self._lived_s += span_s
+            if self.memory.changes != self._known:
+                self._learn()
             self._watch(span_s)
-            order, most_nm = self._order(span_s) if self.is_on else (LET_GO, 0.0)
-            self.tau_nm = self.shaft.turn(order, most_nm, span_s)
-            load = self.tau_nm / self.kind.stall_nm
-            cooling = 0.02 * (self.winding_c - AMBIENT_C)
+            order, most_nm = self._order(span_s) if self._on else (LET_GO, 0.0)
+            self.tau_nm = shaft.turn(order, most_nm, span_s)
             if self.heat_k_s:
+                load = self.tau_nm / self.kind.stall_nm
+                cooling = 0.02 * (self.winding_c - AMBIENT_C)
                 self.winding_c += span_s * (self.heat_k_s * load * load - cooling)
+
+    def _learn(self) -> None:
+        """What is set: looked up once, and not in every step."""
+        memory = self.memory
+        self._on, self._mode = self.is_on, memory.get(11, 1)
+        self._watchdog_s = memory.get(98, 1, signed=True) * WATCHDOG_S
+        self._most = min(self.kind.stall_nm, memory.get(38, 2) * self.kind.step_nm)
+        self._wanted_nm = memory.get(102, 2, signed=True) * self.kind.step_nm
+        self._hottest_c = memory.get(31, 1)
+        self._least_v, self._most_v = 0.1 * memory.get(34, 2), 0.1 * memory.get(32, 2)
+        self._error = memory.get(70, 1)
+        self._known = memory.changes
 
     def _watch(self, span_s: float) -> None:
         memory = self.memory
-        steps = memory.get(98, 1, signed=True)
-        if steps > 0 and self._lived_s - self._heard_s > steps * WATCHDOG_S:
+        if 0.0 < self._watchdog_s < self._lived_s - self._heard_s:
             memory.put(98, 1, -1)
             for address, size in ((102, 2), (104, 4), (108, 4), (112, 4)):
                 memory.put(address, size, 0)
             self._hold()
-        error = memory.get(70, 1) | self.trouble.error
-        decivolts = round(10 * self.volts)
-        if not memory.get(34, 2) <= decivolts <= memory.get(32, 2):
+        error = self._error | self.trouble.error
+        if not self._least_v - 0.05 < self.volts < self._most_v + 0.05:
             error |= 1 << 0
-        if self.winding_c > memory.get(31, 1):
+        if self.winding_c > self._hottest_c:
             error |= 1 << 2
-        strains = abs(self.tau_nm) >= OVERLOAD_SHARE * self._most_nm()
-        still = abs(self.shaft.qd_rad_s) < STILL_RAD_S
-        self._strained_s = self._strained_s + span_s if strains and still and self.is_on else 0.0
-        if self._strained_s > OVERLOAD_S:
-            error |= 1 << 5
-        if error != memory.get(70, 1):
+        if self._on and abs(self.tau_nm) >= OVERLOAD_SHARE * self._most:
+            still = abs(self.shaft.qd_rad_s) < STILL_RAD_S
+            self._strained_s = self._strained_s + span_s if still else 0.0
+            if self._strained_s > OVERLOAD_S:
+                error |= 1 << 5
+        else:
+            self._strained_s = 0.0
+        if error != self._error:
             memory.put(70, 1, error)
-        if self.is_on and self._is_shut():
+        if self._on and error and self._is_shut():
             memory.put(64, 1, 0)
+        if memory.changes != self._known:
+            self._learn()
 
     def _is_shut(self) -> bool:
         return bool(self.memory.get(70, 1) & self.memory.get(63, 1))
 
-    def _most_nm(self) -> float:
-        return min(self.kind.stall_nm, self.memory.get(38, 2) * self.kind.step_nm)
-
     def _order(self, span_s: float) -> tuple[Order, float]:
         """What the loop of its mode makes the motor do, and the most that it can."""
-        memory, kind = self.memory, self.kind
-        mode = memory.get(11, 1)
-        most = self._most_nm()
-        back_emf = kind.stall_nm / kind.speed_rad_s
-        speed = self.shaft.qd_rad_s
+        memory, kind, mode, most = self.memory, self.kind, self._mode, self._most
         if mode == 0:
-            tau = memory.get(102, 2, signed=True) * kind.step_nm
-            return Order(tau_nm=_within(tau, most, kind, speed)), most
+            tau = _within(self._wanted_nm, most, kind, self.shaft.qd_rad_s)
+            return (LET_GO if tau == 0.0 else Order(tau_nm=tau)), most
+        back_emf = kind.stall_nm / kind.speed_rad_s
         if mode == 16:
             share = memory.get(100, 2, signed=True) / FULL_PWM
             return Order(kd=back_emf, tau_nm=share * kind.stall_nm), most
         if mode == 1:
             return self._velocity_order(span_s), most
         if mode == 5:
-            most = min(most, abs(memory.get(102, 2, signed=True)) * kind.step_nm)
+            most = min(most, abs(self._wanted_nm))
         target = self._trajectory(memory.get(116, 4, signed=True), span_s)
         unit = kind.stall_nm / FULL_PWM / PULSE_RAD  # N m/rad of one PWM step a pulse
         kp = memory.get(84, 2) / 128.0 * unit
@@ -258,8 +269,7 @@ class Servo:
         unit = self.kind.step_nm / SPEED_RAD_S
         error = wanted - self.shaft.qd_rad_s
         step = memory.get(76, 2) / 65536.0 * unit * error * span_s / LOOP_S
-        most = self._most_nm()
-        self._sum = max(-most, min(most, self._sum + step))
+        self._sum = max(-self._most, min(self._most, self._sum + step))
         return Order(qd_rad_s=wanted, kd=memory.get(78, 2) / 128.0 * unit, tau_nm=self._sum)
 
     def _trajectory(self, goal: int, span_s: float) -> float:
@@ -307,13 +317,13 @@ class Servo:
     def _measure(self) -> None:
         memory, shaft = self.memory, self.shaft
         amperes = self.tau_nm / self.kind.step_nm
-        memory.put(126, 2, int(amperes))
-        memory.put(128, 4, int(shaft.qd_rad_s / SPEED_RAD_S))
-        memory.put(132, 4, MIDDLE + math.floor(self._position_rad / PULSE_RAD))
-        memory.put(140, 4, MIDDLE + math.floor(self._profile_rad / PULSE_RAD))
-        memory.put(122, 1, int(abs(shaft.qd_rad_s / SPEED_RAD_S) > memory.get(24, 4)))
-        memory.put(144, 2, round(10 * self.volts))
-        memory.put(146, 1, int(self.winding_c))
+        memory.measure(126, 2, int(amperes))
+        memory.measure(128, 4, int(shaft.qd_rad_s / SPEED_RAD_S))
+        memory.measure(132, 4, MIDDLE + math.floor(self._position_rad / PULSE_RAD))
+        memory.measure(140, 4, MIDDLE + math.floor(self._profile_rad / PULSE_RAD))
+        memory.measure(122, 1, int(abs(shaft.qd_rad_s / SPEED_RAD_S) > memory.get(24, 4)))
+        memory.measure(144, 2, round(10 * self.volts))
+        memory.measure(146, 1, int(self.winding_c))
 
 
 def _within(tau_nm: float, most_nm: float, kind: Kind, speed_rad_s: float) -> float:

@@ -42,11 +42,16 @@ MODES = (0, 1, 3, 4, 5, 16)
 
 
 class Memory:
-    """The bytes of one control table."""
+    """The bytes of one control table.
+
+    Attributes:
+        changes: how often anything was set that is not measured.
+    """
 
     def __init__(self, model: int, number: int, current_limit: int) -> None:
         """As it is sold, but for its identifier and its baud rate, which is up to the line."""
         self._bytes = bytearray(SIZE)
+        self.changes = 0
         sold = {
             (0, 2): model, (6, 1): 46, (7, 1): number, (8, 1): 1, (9, 1): 250, (11, 1): 3,
             (12, 1): 255, (13, 1): 2, (24, 4): 10, (31, 1): 80, (32, 2): 160, (34, 2): 95,
@@ -71,6 +76,11 @@ class Memory:
 
     def put(self, address: int, size: int, value: int) -> None:
         """Set a value, as the firmware does by itself."""
+        self.changes += 1
+        self.measure(address, size, value)
+
+    def measure(self, address: int, size: int, value: int) -> None:
+        """Set a value that is measured."""
         low, high = (-(1 << 8 * size - 1), (1 << 8 * size) - 1)
         value = max(low, min(high, value))
         self._bytes[address : address + size] = value.to_bytes(size, "little", signed=value < 0)

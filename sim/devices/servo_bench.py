@@ -16,6 +16,8 @@ from sim.devices.serial_line import Line
 from sim.devices.shaft import FreeShaft, Shaft
 
 SWING_RAD_S = 0.4
+STEP_S = 0.001
+"""Eighteen of them are to keep time with a wall clock."""
 
 
 @dataclass(frozen=True)
@@ -90,6 +92,7 @@ def servo_on(joint: JointServo, shaft: Shaft, now_s: float, *, heat_k_s: float =
 def _servo(joint: JointServo, now_s: float, *, swing_rad_s: float, ahead_rad: float = 0.0) -> Servo:
     middle_rad = joint.motor_rad(0.5 * (joint.lower_rad + joint.upper_rad))
     shaft = FreeShaft(q_rad=middle_rad + ahead_rad, inertia_kg_m2=0.02, spring_nm_rad=0.3)
+    shaft.step_s = STEP_S
     shaft.qd_rad_s = swing_rad_s
     return servo_on(joint, shaft, now_s)
 

@@ -136,6 +136,15 @@ class ServoMap(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         return port_load.load(len(self.on(port)), self.rate_hz, self.ports[port].baud_hz)
 
 
+def is_one(path: Path | str) -> bool:
+    """Whether a file is a map of servos, and not one of motors on CAN: it names ports.
+
+    Raises:
+        ConfigError: it cannot be read as YAML.
+    """
+    return yaml_nodes.read(path, begin_with="rate_hz: 200").get("ports") is not None
+
+
 def load(path: Path | str) -> ServoMap:
     """Read a map.
 

@@ -66,7 +66,8 @@ class Watch:
             qd: their speeds, shape (n,).
             receivers: of the ports, which count what was spoilt.
         """
-        self.speeds.feel(now_s, q, qd)
+        if not heard.misses.any() and np.isfinite(heard.heard_s).all():  # nothing is bridged
+            self.speeds.feel(now_s, q, qd)
         odd = (
             heard.misses.any()
             or self.speeds.wrong.any()
