@@ -63,10 +63,10 @@ def fast_head(count: int, size: int) -> bytes:
     return bytes((0xFF, 0xFF, 0xFD, 0x00, 0xFE, length & 0xFF, length >> 8, 0x55))
 
 
-def fast_part(before: bytes, number: int, error: int, data: bytes) -> bytes:
-    """One servo's part of a fast status packet, behind all the bytes before it."""
+def fast_part(before: int, number: int, error: int, data: bytes) -> bytes:
+    """One servo's part of a fast status packet; `before`: CRC of all the bytes before it."""
     part = bytes((error, number)) + data
-    check = crc(before + part)
+    check = crc(part, before)
     return part + bytes((check & 0xFF, check >> 8))
 
 

@@ -11,7 +11,7 @@ from collections import deque
 from collections.abc import Sequence
 
 from sim.devices.dynamixel import Servo
-from sim.devices.dynamixel_codec import Ear, Instruction, fast_head, fast_part, status
+from sim.devices.dynamixel_codec import Ear, Instruction, crc, fast_head, fast_part, status
 
 BITS_A_BYTE = 10
 """Start, 8 of data, stop."""
@@ -40,6 +40,7 @@ class Line:
         self.busy_s, self.collisions = 0.0, 0
         self._byte_s = BITS_A_BYTE / baud_hz
         self._ear = Ear()
+        self._by_number: dict[int, list[Servo]] = {}
         self._coming: deque[tuple[float, bytes]] = deque()
         self._answers: deque[tuple[float, bytearray]] = deque()
         self._host_free_s = self._free_s = now_s
@@ -108,6 +109,9 @@ class Line:
     # --- what servos make of it ----------------------------------------------------------------
 
     def _obey(self, one: Instruction, at_s: float) -> None:
+        self._by_number.clear()
+        for servo in self._all():
+            self._by_number.setdefault(servo.memory.get(7, 1), []).append(servo)
         self._free_s = max(self._free_s, at_s)
         for servo in self.servos:
             if not servo.trouble.silent:
@@ -125,9 +129,7 @@ class Line:
                 self._single(one, at_s)
 
     def _named(self, number: int) -> list[Servo]:
-        return [
-            one for one in self.servos if one.memory.get(7, 1) == number and not one.trouble.silent
-        ]
+        return self._by_number.get(number, [])
 
     def _single(self, one: Instruction, at_s: float) -> None:
         if one.to == 0xFE:
@@ -182,21 +184,21 @@ class Line:
         """All of them in one packet: each goes on where the one before ended."""
         if not asked:
             return
-        whole = b""
-        begin_s = at_s
+        begin_s, before = at_s, 0
         for place, (number, address, size) in enumerate(asked):
             servos = self._named(number)
             if not servos:
                 return
             said: list[tuple[Servo, bytes]] = []
             head = fast_head(len(asked), size) if place == 0 else b""
+            before = crc(head, before)
             for servo in servos:
                 error, data = servo.read(address, size)
-                part = fast_part(whole + head, number, error | servo.alert, data.ljust(size, b"\0"))
+                part = fast_part(before, number, error | servo.alert, data.ljust(size, b"\0"))
                 said.append((servo, head + part))
             cuts = any(servo.trouble.halves for servo in servos)
             self._say(said, begin_s, thinks=place == 0)
-            whole, begin_s = whole + said[0][1], self._free_s
+            before, begin_s = crc(said[0][1][len(head) :], before), self._free_s
             if cuts:
                 return
 

@@ -109,4 +109,4 @@ def _state(
         yield status.code, f"it reports {status.code.replace('_', ' ')}", status.cure, grave
     q_rad = joint.joint_rad(state.q_rad)
     if (wrong := misplaced(joint, q_rad)) is not None:
-        yield *wrong, True
+        yield wrong.code, wrong.text, wrong.cure, True

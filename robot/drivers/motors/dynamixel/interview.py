@@ -165,7 +165,7 @@ def _of_one(joint: JointServo, answer: Answers) -> Iterator[tuple[str, str, str,
         text = f"its answers are spoilt, {answer.spoilt} times" if answer.spoilt else "no answer"
         yield "no_state", f"it does not tell its state: {text}", "two servos of one id?", True
     elif (wrong := misplaced(joint, joint.joint_rad(q_rad))) is not None:
-        yield *wrong, True
+        yield wrong.code, wrong.text, wrong.cure, True
 
 
 def _settings(joint: JointServo, answer: Answers) -> Iterator[tuple[str, str, str, bool]]:
