@@ -9,8 +9,9 @@ from robot.bus import run
 from robot.bus.lifeline import Stop, ask_for_real_time, tie_to_parent
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import WallClock
+from robot.drivers.motors import servos_and_others
 from robot.drivers.motors.can import joint_map
-from robot.drivers.registry import CAN
+from robot.drivers.registry import CAN, DYNAMIXEL
 from robot.drivers.simulation.shared_plant import PlantServer
 from robot.model import description
 from sim.live import LivePlant
@@ -38,9 +39,13 @@ def main(run_file: str, parent_pid: str) -> None:
             stack.enter_context(scene)
         clock = WallClock()
         buses = None
-        if config.motors == CAN:
-            joints = joint_map.beside(robot)
-            buses = PlantBuses(plant, joints, config.memory, clock=clock, tell=print)
+        if config.motors in (CAN, DYNAMIXEL):
+            servos, joints = None, None
+            if config.motors == CAN:
+                joints = joint_map.beside(robot)
+            else:
+                servos, joints = servos_and_others.maps(robot)
+            buses = PlantBuses(plant, joints, config.memory, clock=clock, tell=print, servos=servos)
             stack.enter_context(buses)
         ask_for_real_time()
         live = LivePlant(plant, body, bus, clock=clock, scene=scene, buses=buses)

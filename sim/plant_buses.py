@@ -1,4 +1,7 @@
-"""CAN buses into a simulated body: real frames to emulated motors that turn the plant's joints."""
+"""Buses into a simulated body: real bytes to emulated motors that turn the plant's joints.
+
+CAN buses with their motors, serial ports with their servos, or some joints on each.
+"""
 
 from __future__ import annotations
 
@@ -11,9 +14,16 @@ from robot.drivers.body_sample import BodySample
 from robot.drivers.motors.can import emulated
 from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.can.ports import socket_path
+from robot.drivers.motors.dynamixel.emulated import terminal_path
+from robot.drivers.motors.dynamixel.joint_map import ServoMap
+from robot.drivers.motors.mounting import Mounted
 from sim.devices.damiao import Damiao
+from sim.devices.dynamixel import Servo
 from sim.devices.joint_shafts import JointShafts
+from sim.devices.serial_line import Line
+from sim.devices.serial_server import SerialServer
 from sim.devices.server import CanServer
+from sim.devices.servo_bench import servo_on
 from sim.devices.wire import Wire
 from sim.plant import Plant
 
@@ -27,13 +37,13 @@ BIN_S, BINS = 0.0001, 100
 
 
 class PlantBuses(Closing):
-    """The buses of a joint map, with a motor for each joint of a plant.
+    """The buses of joint maps, with a motor for each joint of a plant.
 
     Until a motor is first told to give torque, the body is held up, as if from a gantry. The plant
     keeps no watchdog over these motors: each has its own.
 
     Attributes:
-        motors: in the map's order.
+        motors, servos: those on CAN and those on serial ports, in their maps' order.
         took: in how many periods all commands were there after so many tenths of a millisecond of
             wall time, the last one for whatever took longer; counted while motors are enabled.
     """
@@ -41,48 +51,77 @@ class PlantBuses(Closing):
     def __init__(
         self,
         plant: Plant,
-        joints: JointMap,
+        joints: JointMap | None,
         folder: Path,
         *,
         clock: Clock,
         tell: Callable[[str], None],
+        servos: ServoMap | None = None,
     ) -> None:
-        """Listen on a socket for each bus.
+        """Listen on a socket for each bus, and put a terminal for each port.
 
         Args:
             plant: whose joints they turn.
-            joints: the map, in the robot's order.
-            folder: of the sockets.
+            joints: on CAN, in the robot's order; None if no joint is.
+            folder: of the sockets and terminals.
             clock: of the wall.
             tell: hears at the end how long commands took.
+            servos: on serial ports, in the robot's order; None if no joint is.
 
         Raises:
             ConfigError: a motor is not emulated, or the rate fits no physics.
-            OSError: a socket cannot be bound.
+            OSError: a socket or a terminal cannot be made.
         """
-        emulated.check(joints)
+        if joints is not None:
+            emulated.check(joints)
         self.took = [0] * (BINS + 1)
-        self._tell = tell
-        self.period_ms = round(1000 * joints.period_s)
-        self._plant, self._clock = plant, clock
+        self._tell, self._plant, self._clock = tell, plant, clock
         self._time = SimulatedClock(plant.time_s)
-        self._body = JointShafts(joints)
-        wires = {
-            name: Wire(bitrate_hz=bus.bitrate_hz, now_s=plant.time_s)
-            for name, bus in joints.buses.items()
+        by_name: dict[str, Mounted] = {
+            **({} if joints is None else joints.joints),
+            **({} if servos is None else servos.joints),
         }
+        order = [name for name in plant.robot.motor_names if name in by_name]
+        self._body = JointShafts({name: by_name[name] for name in order})
+        self._places = {name: index for index, name in enumerate(order)}
+        periods_s = [one.period_s for one in (joints, servos) if one is not None]
+        self.period_ms = round(1000 * min(periods_s))
+        self._server = self._on_can(joints, folder)
+        self._serial = self._on_ports(servos, folder)
+
+    def _on_can(self, joints: JointMap | None, folder: Path) -> CanServer:
         self.motors: list[Damiao] = []
-        for name, joint in joints.joints.items():
+        self._motor_places: list[int] = []
+        buses = {} if joints is None else joints.buses
+        wires = {
+            name: Wire(bitrate_hz=bus.bitrate_hz, now_s=self._plant.time_s)
+            for name, bus in buses.items()
+        }
+        for name, joint in ({} if joints is None else joints.joints).items():
             sold = joint.expected
             motor = Damiao(
                 wires[joint.bus], self._body.shafts[name], joint.id, joint.answers_as,
                 sold.position_rad, sold.velocity_rad_s, sold.torque_nm, heat_k_s=0.0,
             )  # fmt: skip
             self.motors.append(motor)
+            self._motor_places.append(self._places[name])
         paths = [socket_path(folder, index) for index in range(len(wires))]
-        self._server = CanServer(
-            list(zip(paths, wires.values(), strict=True)), self.motors, self._time
-        )
+        return CanServer(list(zip(paths, wires.values(), strict=True)), self.motors, self._time)
+
+    def _on_ports(self, servos: ServoMap | None, folder: Path) -> SerialServer:
+        self.servos: list[Servo] = []
+        self._servo_places: list[int] = []
+        now_s = self._plant.time_s
+        ports = {} if servos is None else servos.ports
+        lines = {name: Line(baud_hz=port.baud_hz, now_s=now_s) for name, port in ports.items()}
+        for name, joint in ({} if servos is None else servos.joints).items():
+            servo = servo_on(joint, self._body.shafts[name], now_s, heat_k_s=0.0)
+            lines[joint.port].servos.append(servo)
+            self.servos.append(servo)
+            self._servo_places.append(self._places[name])
+        self._lines = list(lines.values())
+        paths = [terminal_path(folder, index) for index in range(len(lines))]
+        return SerialServer(list(zip(paths, self._lines, strict=True)), self._time)
 
     def period(self, sample: BodySample, *, patience_s: float) -> bool:
         """Hear the controller, play the wires, and move the body; whether it was let go yet.
@@ -92,13 +131,17 @@ class PlantBuses(Closing):
             patience_s: wall time for which commands are waited for, where motors expect them.
         """
         plant, body = self._plant, self._body
-        for motor, winding_c in zip(self.motors, sample.motors.temperature_c.tolist(), strict=True):
-            motor.winding_c = winding_c
+        temperature_c = sample.motors.temperature_c.tolist()
+        for motor, place in zip(self.motors, self._motor_places, strict=True):
+            motor.winding_c = temperature_c[place]
+        for servo, place in zip(self.servos, self._servo_places, strict=True):
+            servo.winding_c = temperature_c[place]
         self._hear(patience_s)
         for part in range(0, self.period_ms, SLICE_MS):
             body.feel((sample if part == 0 else plant.read()).motors)
             self._time.set(max(self._time.now_s(), plant.time_s + SLICE_MS / 1000.0))
             self._server.play(self._time.now_s())
+            self._serial.play(self._time.now_s())
             if body.moves:
                 plant.write(body.command(plant.time_s))
                 plant.step(SLICE_MS)
@@ -109,32 +152,44 @@ class PlantBuses(Closing):
     def _hear(self, patience_s: float) -> None:
         """Take what was sent; from motors that are enabled on, all of it is waited for."""
         wanted = sum(motor.status == ENABLED for motor in self.motors)
+        talks = {
+            number
+            for number, line in enumerate(self._lines)
+            if any(servo.is_on and servo.memory.get(98, 1) for servo in line.servos)
+        }
         begun_s, now_s = self._clock.now_s(), self._plant.time_s
-        came = self._server.listen(0.0)
+        came, talked = self._server.listen(0.0), self._serial.listen(0.0)
         passed_s = 0.0
-        while came < wanted and passed_s < patience_s:
-            came += self._server.listen(min(GATHER_S if came else patience_s, patience_s))
+        while (came < wanted or talks - talked) and passed_s < patience_s:
+            wait_s = min(GATHER_S if came or talked or not wanted else patience_s, patience_s)
+            if came < wanted:
+                came += self._server.listen(wait_s)
+            if talks - talked:
+                talked |= self._serial.listen(0.0 if came < wanted else GATHER_S)
             passed_s = self._clock.now_s() - begun_s
             self._time.set(max(self._time.now_s(), now_s + min(passed_s, THINKS_S)))
-        if wanted:
+        if wanted or talks:
             self.took[min(BINS, int(passed_s / BIN_S))] += 1
 
     def _summary(self) -> str:
         """How long commands took, and in how many periods simulated time waited for them."""
+        kinds = [*(["CAN"] if self.motors else []), *(["Dynamixel"] if self.servos else [])]
+        name = " and ".join(kinds)
         total, limit = sum(self.took), round(THINKS_S / BIN_S)
         if not total:
-            return "emulated CAN: no motor was ever enabled"
+            return f"emulated {name}: no motor was ever enabled"
         parts = [
             next(bin for bin in range(BINS + 1) if sum(self.took[: bin + 1]) >= share * total)
             for share in (0.5, 0.9, 0.99)
         ]
         said = ", ".join(f"{1000.0 * BIN_S * (part + 1):.1f}" for part in parts)
         return (
-            f"emulated CAN: all commands of a period came within {said} ms of its begin (50, 90, "
-            f"99 % of {total} periods); time waited in {sum(self.took[limit:]) / total:.1%}"
+            f"emulated {name}: all commands of a period came within {said} ms of its begin (50, "
+            f"90, 99 % of {total} periods); time waited in {sum(self.took[limit:]) / total:.1%}"
         )
 
     def close(self) -> None:
-        """Close the sockets, and say how it went."""
+        """Close sockets and terminals, and say how it went."""
         self._server.close()
+        self._serial.close()
         self._tell(self._summary())

@@ -16,7 +16,7 @@ import numpy as np
 
 from robot.clock import Clock
 from robot.drivers.motor_bus import MotorCommand
-from robot.drivers.motors.can.alarms import Level
+from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.can.driver import CanMotors
 from robot.drivers.motors.can.interview import exchange
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor

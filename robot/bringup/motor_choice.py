@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from robot.bringup.motor_tools import loads
 from robot.control.loop import BUS_PERIOD_S
-from robot.drivers.motors.can import emulated, joint_map
-from robot.drivers.registry import CAN, MOTORS
+from robot.drivers.motors import servos_and_others
+from robot.drivers.motors.can import emulated
+from robot.drivers.motors.can import joint_map as can_map
+from robot.drivers.motors.can.joint_map import JointMap
+from robot.drivers.motors.dynamixel import joint_map as servo_map
+from robot.drivers.motors.dynamixel.joint_map import ServoMap
+from robot.drivers.registry import CAN, DYNAMIXEL, MOTORS
 from robot.errors import ConfigError, Problem
 from robot.misfits import nearest
 from robot.model.description import RobotDescription
+
+FILES = {CAN: can_map.FILE, DYNAMIXEL: servo_map.FILE}
 
 
 def checked(robot: RobotDescription, driver: str) -> str:
@@ -21,24 +30,42 @@ def checked(robot: RobotDescription, driver: str) -> str:
     if driver not in known:
         text = f"motors have no driver {driver!r}"
         raise ConfigError([Problem(text, suggestion=nearest(driver, known))])
-    if driver != CAN:
+    if driver not in FILES:
         return ""
-    file = robot.path().with_name(joint_map.FILE)
+    file = robot.path().with_name(FILES[driver])
     if not file.is_file():
-        cure = f"write {joint_map.FILE} beside the robot's description (docs/hardware.md)"
+        cure = f"write {FILES[driver]} beside the robot's description (docs/hardware.md)"
         text = f"the robot {robot.name!r} has no joint map: which motor moves which joint"
         raise ConfigError([Problem(text, str(file), suggestion=cure)])
-    joints = joint_map.beside(robot)
+    if driver == CAN:
+        return _on_can(can_map.beside(robot))
+    servos, others = servos_and_others.maps(robot)
+    said = _on_ports(servos)
+    return said if others is None else f"{said} {_on_can(others)}"
+
+
+def _on_can(joints: JointMap) -> str:
     emulated.check(joints)
-    wanted_hz = round(1.0 / BUS_PERIOD_S)
-    if joints.rate_hz != wanted_hz:
-        text = (
-            f"it commands motors at {joints.rate_hz} Hz, the controller {wanted_hz} times a second"
-        )
-        cure = f"set rate_hz: {wanted_hz}"
-        raise ConfigError([Problem(text, joints.file, suggestion=cure)])
+    _check_rate(joints.rate_hz, Path(joints.file))
     fullest = max(loads(joints), key=lambda load: load.share)
     return (
         f"Motors by CAN (emulated): {len(joints.joints)} joints on {len(joints.buses)} buses at "
         f"{joints.rate_hz} Hz; the fullest, {fullest.bus}, is {fullest.share:.0%} busy."
     )
+
+
+def _on_ports(joints: ServoMap) -> str:
+    _check_rate(joints.rate_hz, Path(joints.file))
+    fullest = max(joints.ports, key=joints.load)
+    return (
+        f"Motors by Dynamixel (emulated): {len(joints.joints)} joints on {len(joints.ports)} ports "
+        f"at {joints.rate_hz} Hz; the fullest, {fullest}, is {joints.load(fullest):.0%} busy."
+    )
+
+
+def _check_rate(rate_hz: int, file: Path) -> None:
+    """Its periods are the controller's: it cannot be told less often than it is told."""
+    wanted_hz = round(1.0 / BUS_PERIOD_S)
+    if rate_hz != wanted_hz:
+        text = f"it commands motors at {rate_hz} Hz, the controller {wanted_hz} times a second"
+        raise ConfigError([Problem(text, str(file), suggestion=f"set rate_hz: {wanted_hz}")])

@@ -24,7 +24,7 @@ from robot.model.description import Battery, Camera, Imu, Lidar, RobotDescriptio
 
 R = TypeVar("R")
 D_co = TypeVar("D_co", covariant=True)
-SIMULATED, CAN = "simulated", "can"
+SIMULATED, CAN, DYNAMIXEL = "simulated", "can", "dynamixel"
 
 
 @dataclass(frozen=True)
@@ -81,6 +81,12 @@ def _can_motors(wiring: Wiring) -> MotorBus:
     return make(wiring)
 
 
+def _dynamixel_motors(wiring: Wiring) -> MotorBus:
+    from robot.drivers.motors.servos_and_others import make
+
+    return make(wiring)
+
+
 def _simulated_imu(wiring: Wiring) -> SensorSource[ImuReading, Imu]:
     from robot.drivers.imu.simulated import make
 
@@ -129,7 +135,9 @@ def _simulated_battery(wiring: Wiring) -> SensorSource[PowerState, Battery | Non
     return make(wiring)
 
 
-MOTORS = Family("motors", {SIMULATED: _simulated_motors, CAN: _can_motors})
+MOTORS = Family(
+    "motors", {SIMULATED: _simulated_motors, CAN: _can_motors, DYNAMIXEL: _dynamixel_motors}
+)
 
 # What the controller reads in every period (`robot.drivers.body_devices`).
 IMU = Family("imu", {SIMULATED: _simulated_imu})

@@ -14,30 +14,41 @@ from robot.clock import WallClock
 from robot.closing import Closing
 from robot.drivers.motors.can import joint_map
 from robot.drivers.motors.can.emulated import INTERFACE
+from robot.drivers.motors.can.ports import socket_path
+from robot.drivers.motors.dynamixel import joint_map as servo_map
+from robot.drivers.motors.dynamixel.emulated import terminal_path
 from robot.errors import ProcessError
-from sim.devices import bench
+from sim.devices import bench, servo_bench
 from sim.devices.main import READY, STILL, SWINGING
 
 STOPS_WITHIN_S = 3.0
 POLL_S = 0.005
+CAN, SERVOS = "sim.devices.main", "sim.devices.servo_main"
 
 
 class EmulatedMotors(Closing):
-    """A child process with a socket for each bus; it ends when this is closed, or dies.
+    """A child process with a socket for each bus, or a terminal for each port of servos.
+
+    It ends when this is closed, or dies.
 
     Attributes:
         interface: of python-can.
-        channels: paths of the sockets, by bus.
+        channels: paths of the sockets or terminals, by bus or port.
     """
 
     interface = INTERFACE
 
     def __init__(self, file: Path, *, flaws: Mapping[str, str], is_still: bool = False) -> None:
         """Look at the map. Raises ConfigError as `bench.build`."""
-        wanted = joint_map.load(file)
-        bench.build(wanted, flaws=flaws)
         self._file, self._flaws, self._is_still = file, flaws, is_still
-        self._buses = tuple(wanted.buses)
+        if servo_map.is_one(file):
+            servos = servo_map.load(file)
+            servo_bench.build(servos, flaws=flaws)
+            self._buses, self._path, self._program = tuple(servos.ports), terminal_path, SERVOS
+        else:
+            wanted = joint_map.load(file)
+            bench.build(wanted, flaws=flaws)
+            self._buses, self._path, self._program = tuple(wanted.buses), socket_path, CAN
         self._folder: private_folder.PrivateFolder | None = None
         self._child: subprocess.Popen[bytes] | None = None
         self.channels: Mapping[str, str] = {}
@@ -45,12 +56,12 @@ class EmulatedMotors(Closing):
     def __enter__(self) -> Self:
         """Start it, and wait until its sockets are there. Raises ProcessError if it ends."""
         self._folder = private_folder.create()
-        sockets = [self._folder.path / f"bus{index}" for index in range(len(self._buses))]
+        sockets = [self._path(self._folder.path, index) for index in range(len(self._buses))]
         self.channels = dict(zip(self._buses, map(str, sockets), strict=True))
         flaws = [f"{joint}={flaw}" for joint, flaw in self._flaws.items()]
         motion = STILL if self._is_still else SWINGING
         self._child = subprocess.Popen(
-            [sys.executable, "-m", "sim.devices.main", str(os.getpid()), str(self._file),
+            [sys.executable, "-m", self._program, str(os.getpid()), str(self._file),
              str(self._folder.path), motion, *flaws],
             stdin=subprocess.DEVNULL, start_new_session=True,
         )  # fmt: skip

@@ -6,10 +6,12 @@ law runs as fast as the physics does, and stiff gains are integrated implicitly 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from robot.drivers.motor_bus import MotorCommand, MotorState
-from robot.drivers.motors.can.joint_map import JointMap, JointMotor
+from robot.drivers.motors.mounting import Mounted
 from robot.se3 import Array
 from sim.devices.shaft import LET_GO, Order
 
@@ -21,7 +23,7 @@ class JointShaft:
 
     step_s = STEP_S
 
-    def __init__(self, body: JointShafts, index: int, motor: JointMotor) -> None:
+    def __init__(self, body: JointShafts, index: int, motor: Mounted) -> None:
         """The joint `index` of a body."""
         self._body, self._index = body, index
         self._turns, self._offset_rad = motor.sign * motor.gear, motor.offset_rad
@@ -59,14 +61,14 @@ class JointShafts:
         moves: whether any motor was ever told to give torque.
     """
 
-    def __init__(self, joints: JointMap) -> None:
-        """Nothing is ordered."""
-        count = len(joints.joints)
+    def __init__(self, joints: Mapping[str, Mounted]) -> None:
+        """Nothing is ordered. `joints`: of all motors, in the body's order."""
+        count = len(joints)
         self.q, self.qd, self.tau = ([0.0] * count for _ in range(3))
         self.moves = False
         self.shafts = {
             name: JointShaft(self, index, motor)
-            for index, (name, motor) in enumerate(joints.joints.items())
+            for index, (name, motor) in enumerate(joints.items())
         }
         self._orders: Array = np.zeros((5, count))
         self._is_new = True

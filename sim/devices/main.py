@@ -11,6 +11,7 @@ from pathlib import Path
 from robot.bus.lifeline import Stop, tie_to_parent
 from robot.clock import WallClock
 from robot.drivers.motors.can import joint_map
+from robot.drivers.motors.can.ports import socket_path
 from sim.devices import bench
 from sim.devices.server import CanServer
 
@@ -27,7 +28,7 @@ def main(parent_pid: str, file: str, folder: str, motion: str, *flaws: str) -> N
     wanted = joint_map.load(file)
     pairs = dict(flaw.split("=", 1) for flaw in flaws)
     built = bench.build(wanted, now_s=clock.now_s(), flaws=pairs, is_still=motion == STILL)
-    paths = [Path(folder) / f"bus{index}" for index in range(len(wanted.buses))]
+    paths = [socket_path(Path(folder), index) for index in range(len(wanted.buses))]
     wires = list(zip(paths, built.wires.values(), strict=True))
     with CanServer(wires, built.devices, clock) as server:
         (Path(folder) / READY).touch()

@@ -54,7 +54,7 @@ class Shaft(Protocol):
 class FreeShaft:
     """A flywheel with viscous friction, and a spring back to where it began: a motor on a bench."""
 
-    step_s = 0.0005
+    step_s: float = 0.0005
     """A real one's loop runs at 20 kHz."""
 
     def __init__(

@@ -17,7 +17,9 @@ from robot.drivers.simulation.shared_plant import SILENCE_S, PlantServer, Shared
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.model import description
+from tests.fakes import dynamixel_rig
 from tests.fakes.can_rig import CanPlant, Rig, can_map
+from tests.fakes.dynamixel_rig import ServoPlant
 from tests.fakes.motors import FakePlant, hold
 
 ROBOT = description.load("juno")
@@ -29,16 +31,17 @@ class Device:
     """A driver of a row, another of the same device, the plant behind, a period between them.
 
     Frames round to steps, and carry no stamps: what a state may be off, and whether a reader knows
-    the stamps of another's commands.
+    the stamps of another's commands; whether gains go over the wire, or torque alone.
     """
 
     driver: MotorBus
     spare: MotorBus
     clock: SimulatedClock
-    plant: FakePlant | CanPlant
+    plant: FakePlant | CanPlant | ServoPlant
     period: Callable[[], None]
     step: float = 0.0
     stamps: bool = True
+    gains: bool = True
 
 
 def simulated_here(tmp_path: Path) -> Device:
@@ -75,7 +78,17 @@ def on_can(tmp_path: Path) -> Device:
     return Device(*plant.drivers, rig.clock, plant, lambda: None, step=0.1, stamps=False)
 
 
-BENCHES = {"simulated": (simulated_here, simulated_elsewhere), "can": (on_can,)}
+def on_serial_ports(tmp_path: Path) -> Device:
+    rig = dynamixel_rig.Rig(dynamixel_rig.servo_map(ROBOT))
+    plant = ServoPlant(rig, (rig.driver, rig.another()))
+    return Device(*plant.drivers, rig.clock, plant, plant.play, step=0.1, stamps=False, gains=False)
+
+
+BENCHES = {
+    "simulated": (simulated_here, simulated_elsewhere),
+    "can": (on_can,),
+    "dynamixel": (on_serial_ports,),
+}
 
 
 @pytest.fixture(params=[bench for benches in BENCHES.values() for bench in benches])
@@ -193,11 +206,12 @@ def test_one_at_a_time_commands_the_motors(device: Device):
 
 def test_a_spare_that_leaves_does_not_damp_the_motors_of_another(device: Device):
     with device.driver as first:
-        first.write(hold(COUNT, 0.0))
+        first.write(hold(COUNT, 0.0, 0.3))
         with device.spare:
             pass
         device.period()
-        assert device.plant.commands[-1].kp.all()
+        last = device.plant.commands[-1]
+        assert (last.kp if device.gains else last.tau_ff).all()
 
 
 # --- over shared memory ----------------------------------------------------------------------

@@ -1,12 +1,12 @@
 """A driver and a plant's emulated buses in one thread: real frames, and no wall clock."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from robot.clock import SimulatedClock
+from robot.clock import Clock, SimulatedClock
 from robot.drivers.motors.can.driver import CanMotors
 from robot.drivers.motors.can.emulated import buses_in
-from robot.drivers.motors.can.joint_map import JointMap
+from robot.drivers.motors.can.joint_map import Bus, JointMap
 from robot.drivers.motors.can.ports import Heard, PythonCan
 from sim.plant import Plant
 from sim.plant_buses import PlantBuses
@@ -33,12 +33,16 @@ class Lockstep:
 
     def driver(self, tell: Callable[[str], None] = lambda _: None) -> CanMotors:
         """A driver on these buses."""
-        return CanMotors(self.joints, self, ports=lambda: _Ports(self), tell=tell)
+        return CanMotors(
+            self.joints, self, ports=lambda: LockstepPorts(self, self.joints.buses), tell=tell
+        )
 
 
-class _Ports(PythonCan):
-    def __init__(self, time: Lockstep) -> None:
-        super().__init__(time.joints.buses, time)
+class LockstepPorts(PythonCan):
+    """Buses of the plant; who waits for them plays it."""
+
+    def __init__(self, time: Clock, buses: Mapping[str, Bus]) -> None:
+        super().__init__(buses, time)
         self._time = time
 
     def receive(self, until_s: float) -> Sequence[Heard]:

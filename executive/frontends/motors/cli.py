@@ -9,7 +9,7 @@ from executive.frontends.options import takes
 
 app = typer.Typer(
     no_args_is_help=True,
-    help="Look at real CAN motors, or at emulated ones. Only jog enables a motor, and no other.",
+    help="Look at real CAN motors and Dynamixel servos, or at emulated ones. Only jog enables one.",
 )
 
 
@@ -31,7 +31,10 @@ def scan(options: Scan) -> None:
 
       humanoid motors scan --emulated --fail left_knee=twin
 
-    Damiao's motors are found. Exit status 1 where nobody answers, or two answer as one.
+      humanoid motors scan --map robot/model/juno/dynamixel.yaml --emulated
+
+    Damiao's motors and Dynamixel servos are found. Exit status 1 where nobody answers, or two
+    answer as one.
     """
     from executive.frontends.motors import commands
 

@@ -14,8 +14,9 @@ from executive.frontends.motors import tables
 from executive.frontends.motors.options import Check, Jog, Log, OfMap, Scan, Watch, Zero
 from executive.frontends.new_files import refuse_taken
 from executive.frontends.output import say, table_screen, write_json
-from robot.bringup import motor_bench, motor_log, motor_tools
-from robot.bringup.motor_tools import Buses, Joints
+from robot.bringup import motor_bench, motor_log, motor_tools, servo_tools
+from robot.bringup.motor_tools import Joints, Seen
+from robot.bringup.servo_tools import Servos
 from robot.clock import WallClock
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
@@ -29,18 +30,21 @@ def scan(asked: Scan) -> int:
     """
     if asked.channel:
         buses = motor_tools.buses_at(asked.channel, asked.interface)
-        return _scan(buses, up_to=asked.up_to, joints=None, as_json=asked.as_json, label="")
-    with _joints(asked) as (joints, label):
-        return _scan(
-            joints.buses, up_to=asked.up_to, joints=joints, as_json=asked.as_json, label=label
-        )
+        found = motor_tools.scan(buses, WallClock(), up_to=asked.up_to)
+        return _seen(found, asked, label="", buses=len(buses))
+    with _any_joints(asked) as (joints, label):
+        if isinstance(joints, Servos):
+            found = servo_tools.scan(joints, WallClock(), up_to=asked.up_to)
+            return _seen(found, asked, label=label, buses=len(joints.ports))
+        buses = joints.buses
+        found = motor_tools.scan(buses, WallClock(), up_to=asked.up_to, joints=joints)
+        return _seen(found, asked, label=label, buses=len(buses))
 
 
-def _scan(buses: Buses, *, up_to: int, joints: Joints | None, as_json: bool, label: str) -> int:
-    found = motor_tools.scan(buses, WallClock(), up_to=up_to, joints=joints)
+def _seen(found: Sequence[Seen], asked: Scan, *, label: str, buses: int) -> int:
     twins = [one for one in found if one.replies > 1]
     status = ExitStatus.FAILED if twins or not found else ExitStatus.DONE
-    if as_json:
+    if asked.as_json:
         write_json({"emulated": bool(label), "motors": found})
         return status
     if found:
@@ -49,14 +53,17 @@ def _scan(buses: Buses, *, up_to: int, joints: Joints | None, as_json: bool, lab
         say(f"{one.replies} motors answer to {one.id} on {one.bus}: unplug one, change its id")
     if not found:
         say("Nobody answers: are the motors powered, is the bus terminated, is its bit rate right?")
-    say(f"{len(found)} identifiers of 1 to {up_to} answer on {len(buses)} buses{label}.")
+    say(f"{len(found)} identifiers of 1 to {asked.up_to} answer on {buses} buses{label}.")
     return status
 
 
 def read(asked: OfMap) -> int:
     """Say what every motor measures; returns the exit status."""
-    with _joints(asked) as (joints, label):
-        rows = motor_tools.read(joints, WallClock())
+    with _any_joints(asked) as (joints, label):
+        if isinstance(joints, Servos):
+            rows = servo_tools.read(joints, WallClock())
+        else:
+            rows = motor_tools.read(joints, WallClock())
     silent = [row.joint for row in rows if row.status == "silent"]
     status = ExitStatus.FAILED if silent else ExitStatus.DONE
     if asked.as_json:
@@ -71,10 +78,13 @@ def read(asked: OfMap) -> int:
 
 def check(asked: Check) -> int:
     """Compare motors with their map; returns the exit status."""
-    with _joints(asked) as (joints, label):
+    with _any_joints(asked) as (joints, label):
         if not asked.as_json:
             say(f"Asking {len(joints.joints)} motors{label}, then reading for {asked.for_s:g} s.")
-        found = motor_tools.check(joints, WallClock(), for_s=asked.for_s)
+        if isinstance(joints, Servos):
+            found = servo_tools.check(joints, WallClock(), for_s=asked.for_s)
+        else:
+            found = motor_tools.check(joints, WallClock(), for_s=asked.for_s)
     status = ExitStatus.FAILED if found.is_grave else ExitStatus.DONE
     if asked.as_json:
         write_json({"emulated": bool(label), "is_grave": found.is_grave, "check": found})
@@ -106,8 +116,12 @@ def _tell(found: motor_tools.Check) -> None:
 
 def watch(asked: Watch) -> int:
     """Show what joints measure, again and again; returns the exit status."""
-    with _joints(asked) as (joints, label):
-        shown = motor_tools.watch(joints, WallClock(), every_s=asked.every_s, for_s=asked.for_s)
+    with _any_joints(asked) as (joints, label):
+        clock, every_s, for_s = WallClock(), asked.every_s, asked.for_s
+        if isinstance(joints, Servos):
+            shown = servo_tools.watch(joints, clock, every_s=every_s, for_s=for_s)
+        else:
+            shown = motor_tools.watch(joints, clock, every_s=every_s, for_s=for_s)
         with suppress(KeyboardInterrupt):
             _show(shown, as_json=asked.as_json, label=label)
     return ExitStatus.DONE
@@ -212,21 +226,40 @@ def jog(asked: Jog) -> int:
 
 @contextmanager
 def _joints(asked: OfMap, *, is_still: bool = False) -> Generator[tuple[Joints, str]]:
+    """A joint map of motors on CAN, as `_any_joints`.
+
+    Raises:
+        ConfigError: with everything that is wrong; or it is a map of servos.
+    """
+    with _any_joints(asked, is_still=is_still) as (joints, label):
+        if isinstance(joints, Servos):
+            cure = "scan, read, check and watch know servos"
+            text = "this command knows motors on CAN only"
+            raise ConfigError([Problem(text, joints.file, suggestion=cure)])
+        yield joints, label
+
+
+@contextmanager
+def _any_joints(asked: OfMap, *, is_still: bool = False) -> Generator[tuple[Joints | Servos, str]]:
     """The joint map, and how it is said that its motors are emulated where they are.
 
     Raises:
         ConfigError: with everything that is wrong in the map and in what was asked.
     """
     path = motor_tools.map_path(asked.robot, asked.map_file)
+    is_servos = servo_tools.is_one(path)
     if not asked.emulated:
         if asked.fail:
             cure = "add --emulated, or leave --fail out"
             raise ConfigError([Problem("only emulated motors fail on request", suggestion=cure)])
-        yield motor_tools.load_map(path), ""
+        yield (servo_tools if is_servos else motor_tools).load_map(path), ""
         return
     flaws = _flaws(asked.fail or ())
     with REALITY.motors(path, flaws=flaws, is_still=is_still) as buses:
-        yield motor_tools.load_map(path, buses.channels, by=buses.interface), " (emulated)"
+        if is_servos:
+            yield servo_tools.load_map(path, buses.channels), " (emulated)"
+        else:
+            yield motor_tools.load_map(path, buses.channels, by=buses.interface), " (emulated)"
 
 
 def _flaws(fail: Sequence[str]) -> Mapping[str, str]:

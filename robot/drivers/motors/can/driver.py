@@ -10,23 +10,23 @@ import numpy as np
 from robot.clock import Clock
 from robot.closing import Closing
 from robot.drivers.motor_bus import MIT_MODE, MotorBus, MotorCommand, MotorState
+from robot.drivers.motors.alarms import Alarms, Level
 from robot.drivers.motors.can import arming, joint_map, watching
-from robot.drivers.motors.can.alarms import Alarms, Level
-from robot.drivers.motors.can.claim import Claim
 from robot.drivers.motors.can.coding import Coding
 from robot.drivers.motors.can.emulated import EmulatedBuses, PlantClock, buses_in
 from robot.drivers.motors.can.frames import Frame
-from robot.drivers.motors.can.gearing import Gearing
 from robot.drivers.motors.can.interview import interview
 from robot.drivers.motors.can.joint_map import JointMap
-from robot.drivers.motors.can.limiter import Limiter, Measured
 from robot.drivers.motors.can.mit11 import ENABLED
 from robot.drivers.motors.can.packed import packed
 from robot.drivers.motors.can.ports import Ports, PythonCan, check_buses
 from robot.drivers.motors.can.reception import Reception
 from robot.drivers.motors.can.sending import TransmitQueue
-from robot.drivers.motors.can.speed_check import SpeedCheck
 from robot.drivers.motors.can.verdicts import verdicts
+from robot.drivers.motors.claim import Claim
+from robot.drivers.motors.gearing import Gearing
+from robot.drivers.motors.limiter import Limiter, Measured
+from robot.drivers.motors.speed_check import SpeedCheck
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.se3 import Array

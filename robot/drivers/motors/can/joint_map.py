@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, TypeAlias
 
 import msgspec
 
@@ -23,7 +23,8 @@ from robot.drivers.motors.can.families import FAMILIES, Family
 from robot.drivers.motors.can.frames import BITRATE_HZ
 from robot.drivers.motors.can.mit11 import MOST_ID, Ranges
 from robot.drivers.motors.can.models import MODELS
-from robot.errors import ConfigError, Problem
+from robot.drivers.motors.mounting import Mounted, beyond, unlike
+from robot.errors import ConfigError
 from robot.model.description import RobotDescription
 
 FILE = "can.yaml"
@@ -67,20 +68,14 @@ class MotorRanges(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     torque_nm: q.Torque
 
 
-class JointMotor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """The motor of one joint: q_joint = sign * q_motor / gear + offset_rad.
+class JointMotor(Mounted, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """The motor of one joint, and how it sits there (`Mounted`).
 
     Attributes:
         bus: one of `buses`.
         model: a row of `robot.drivers.motors.can.models`.
         id: it listens for this (decimal).
         reply_id: it answers under this; 0: its `id` plus 16.
-        sign: -1 where the joint turns the other way.
-        offset_rad: the joint's angle where the motor says 0.
-        gear: turns of the motor's output for one of the joint (a belt behind it).
-        lower_rad, upper_rad: the joint is sent nowhere else.
-        velocity_limit_rad_s, torque_limit_nm: of the joint.
-        over_temperature_c: it is derated above, and let go where its own limit is.
         ranges: what its registers hold.
     """
 
@@ -88,14 +83,6 @@ class JointMotor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
     model: str
     id: Identifier
     reply_id: Annotated[int, msgspec.Meta(ge=0, le=MOST_ID)] = 0
-    sign: Literal[1, -1] = 1
-    offset_rad: q.Joint = 0.0
-    gear: q.Ratio = 1.0
-    lower_rad: q.Joint
-    upper_rad: q.Joint
-    velocity_limit_rad_s: q.TurnRate
-    torque_limit_nm: q.Torque
-    over_temperature_c: q.Heat = 80.0
     ranges: MotorRanges | None = None
 
     @property
@@ -114,13 +101,15 @@ class JointMotor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
         known = self.ranges or MODELS[self.model]
         return Ranges(known.position_rad, known.velocity_rad_s, known.torque_nm)
 
-    def motor_rad(self, joint_rad: float) -> float:
-        """The motor's angle at one of the joint's."""
-        return self.sign * self.gear * (joint_rad - self.offset_rad)
+    @property
+    def kp_most(self) -> float:
+        """The stiffest that its frames can say, at the joint."""
+        return self.family.kp_max * self.gear * self.gear
 
-    def joint_rad(self, motor_rad: float) -> float:
-        """The joint's angle at one of the motor's."""
-        return self.sign * motor_rad / self.gear + self.offset_rad
+    @property
+    def kd_most(self) -> float:
+        """The most damping that its frames can say, at the joint."""
+        return self.family.kd_max * self.gear * self.gear
 
 
 class JointMap(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -189,19 +178,7 @@ def of_robot(found: JointMap, motors: Sequence[str]) -> JointMap:
     Raises:
         ConfigError: if it lacks a motor, or has one that the robot has not.
     """
-    missing = [name for name in motors if name not in found.joints]
-    foreign = [name for name in found.joints if name not in motors]
-    problems = [
-        Problem(f"no motor moves the joint {name!r}", found.file, suggestion="add it to joints")
-        for name in missing
-    ]
-    problems += [
-        Problem(
-            f"the robot has no motor {name!r}", found.file, suggestion=config.nearest(name, motors)
-        )
-        for name in foreign
-    ]
-    if problems:
+    if problems := unlike(list(found.joints), motors, found.file):
         raise ConfigError(problems)
     return msgspec.structs.replace(found, joints={name: found.joints[name] for name in motors})
 
@@ -258,13 +235,9 @@ def _limits(found: JointMap) -> Iterator[Wrong]:
             if abs(turned) > most.position_rad:
                 text = f"there the motor is at {turned:.2f} rad, and its frames say {most[0]:g}"
                 yield f"{where}.{key}", text, "narrow the limit, or correct gear and offset_rad"
-        speed, torque = most.velocity_rad_s / joint.gear, most.torque_nm * joint.gear
-        if joint.velocity_limit_rad_s > speed * 1.0001:
-            text = f"a {joint.model} at gear {joint.gear:g} gives {speed:.3g} rad/s at most"
-            yield f"{where}.velocity_limit_rad_s", text, f"{speed:.3g} or less"
-        if joint.torque_limit_nm > torque * 1.0001:
-            text = f"a {joint.model} at gear {joint.gear:g} gives {torque:.3g} N m at most"
-            yield f"{where}.torque_limit_nm", text, f"{torque:.3g} or less"
+        yield from beyond(
+            where, joint, joint.model, speed_rad_s=most.velocity_rad_s, torque_nm=most.torque_nm
+        )
 
 
 def _loads(found: JointMap) -> Iterator[Wrong]:

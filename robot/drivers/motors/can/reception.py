@@ -8,10 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from robot.drivers.motors.can.coding import Coding
-from robot.drivers.motors.can.gearing import Gearing
 from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.can.mit11 import DISABLED, Ranges
 from robot.drivers.motors.can.packed import BUS_OFF, ERROR, RECORD, SHORT_IDS, Bytes
+from robot.drivers.motors.gearing import Gearing
 from robot.se3 import Array
 
 JUMPS_BELIEVED = 3

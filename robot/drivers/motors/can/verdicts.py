@@ -10,11 +10,10 @@ from robot.drivers.motors.can.families import Asking
 from robot.drivers.motors.can.interview import Answers
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.drivers.motors.can.watching import LOST
+from robot.drivers.motors.mounting import misplaced
 
 SAME_SHARE = 1e-4
 """Registers are single floats; a range that somebody changed differs by more."""
-SLACK_RAD = 0.05
-"""So far behind its limit a joint may stand: its end stop is softer than its limit."""
 
 
 class Finding(NamedTuple):
@@ -109,12 +108,5 @@ def _state(
         grave = status.code != LOST
         yield status.code, f"it reports {status.code.replace('_', ' ')}", status.cure, grave
     q_rad = joint.joint_rad(state.q_rad)
-    if joint.lower_rad - SLACK_RAD <= q_rad <= joint.upper_rad + SLACK_RAD:
-        return
-    text = f"it stands at {q_rad:.2f} rad, outside {joint.lower_rad:g} to {joint.upper_rad:g}"
-    mirrored = 2.0 * joint.offset_rad - q_rad
-    if joint.lower_rad <= mirrored <= joint.upper_rad:
-        cure = f"is its sign {-joint.sign}? then it stands at {mirrored:.2f} rad"
-        yield "sign", text, cure, True
-        return
-    yield "offset", text, "measure offset_rad, or bring the joint between its stops", True
+    if (wrong := misplaced(joint, q_rad)) is not None:
+        yield wrong.code, wrong.text, wrong.cure, True

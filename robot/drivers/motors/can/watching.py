@@ -6,13 +6,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from robot.drivers.motors.can.alarms import BY_STATUS, Alarm, Alarms, Level
+from robot.drivers.motors.alarms import BY_STATUS, Alarm, Alarms, Level
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
-from robot.drivers.motors.can.limiter import WARM_K
 from robot.drivers.motors.can.mit11 import DISABLED, ENABLED
 from robot.drivers.motors.can.reception import JUMPS_BELIEVED, Reception
 from robot.drivers.motors.can.sending import TransmitQueue
-from robot.drivers.motors.can.speed_check import SpeedCheck
+from robot.drivers.motors.limiter import WARM_K
+from robot.drivers.motors.speed_check import SpeedCheck
 from robot.se3 import Array
 
 SILENT_PERIODS = 3

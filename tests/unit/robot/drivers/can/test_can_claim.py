@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from robot.drivers.motors.can.claim import Claim
+from robot.drivers.motors.claim import Claim
 from robot.errors import DriverError
 
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robot.drivers.motor_bus import MotorCommand
-from robot.drivers.motors.can.limiter import LEAST_SHARE, Limiter, Measured
+from robot.drivers.motors.limiter import LEAST_SHARE, Limiter, Measured
 from robot.errors import DriverError
 from tests.fakes.can_rig import limbs
 

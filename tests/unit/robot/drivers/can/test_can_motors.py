@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from robot.drivers.motor_bus import MotorCommand
+from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.can import mit11
-from robot.drivers.motors.can.alarms import Level
 from robot.drivers.motors.can.driver import CanMotors
 from robot.errors import DriverError
 from sim.devices.direct import DirectPorts

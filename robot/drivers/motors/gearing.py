@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from robot.drivers.motors.can.joint_map import JointMap
+from robot.drivers.motors.mounting import MountedJoints
 from robot.se3 import Array
 
 
@@ -16,7 +16,7 @@ class Gearing:
         stiffness: of a joint over that of its motor: gear², shape (n,).
     """
 
-    def __init__(self, joints: JointMap) -> None:
+    def __init__(self, joints: MountedJoints) -> None:
         """Of a map's joints, in its order."""
         motors = joints.joints.values()
         self.turns: Array = np.array([motor.sign * motor.gear for motor in motors])

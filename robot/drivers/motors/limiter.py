@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from robot.drivers.motor_bus import MotorCommand
-from robot.drivers.motors.can.joint_map import JointMap
+from robot.drivers.motors.mounting import MountedJoints
 from robot.errors import DriverError
 from robot.se3 import Array
 
@@ -43,7 +43,7 @@ class Limiter:
         clipped: values clipped so far, by what they were.
     """
 
-    def __init__(self, joints: JointMap) -> None:
+    def __init__(self, joints: MountedJoints) -> None:
         """Take the limits of a map."""
         motors = joints.joints.values()
         self.clipped = {"position": 0, "speed": 0, "torque": 0, "gain": 0, "rate": 0}
@@ -52,9 +52,8 @@ class Limiter:
         self._upper: Array = np.array([motor.upper_rad for motor in motors])
         self._speed: Array = np.array([motor.velocity_limit_rad_s for motor in motors])
         self._torque: Array = np.array([motor.torque_limit_nm for motor in motors])
-        square: Array = np.array([motor.gear * motor.gear for motor in motors])
-        self._kp: Array = square * np.array([motor.family.kp_max for motor in motors])
-        self._kd: Array = square * np.array([motor.family.kd_max for motor in motors])
+        self._kp: Array = np.array([motor.kp_most for motor in motors])
+        self._kd: Array = np.array([motor.kd_most for motor in motors])
         self._hot_c: Array = np.array([motor.over_temperature_c for motor in motors])
         self._period_s = joints.period_s
         self._last: Array | None = None

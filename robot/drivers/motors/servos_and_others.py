@@ -1,0 +1,187 @@
+"""Dynamixel servos, and the motors that another driver moves: one `MotorBus` for all of a robot."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple, Self
+
+import msgspec
+import numpy as np
+import numpy.typing as npt
+
+from robot.closing import Closing
+from robot.drivers.motor_bus import Capability, MotorBus, MotorCommand, MotorState
+from robot.drivers.motors.can import joint_map as can_map
+from robot.drivers.motors.can.driver import CanMotors
+from robot.drivers.motors.can.emulated import EmulatedBuses, PlantClock, buses_in
+from robot.drivers.motors.can.joint_map import JointMap
+from robot.drivers.motors.can.ports import PythonCan, check_buses
+from robot.drivers.motors.dynamixel import joint_map
+from robot.drivers.motors.dynamixel.driver import DynamixelMotors
+from robot.drivers.motors.dynamixel.emulated import EmulatedPorts, ports_in
+from robot.drivers.motors.dynamixel.joint_map import ServoMap
+from robot.drivers.motors.dynamixel.ports import SerialPorts, check_ports
+from robot.drivers.motors.limiter import FIELDS
+from robot.drivers.wiring import Wiring
+from robot.errors import ConfigError, DriverError, Problem
+from robot.messages import MotorAlarm
+from robot.model.description import RobotDescription
+from robot.se3 import Array
+
+LEVELS = ("SIT", "HOLD", "DERATE", "WARN")
+
+
+class Maps(NamedTuple):
+    """Whose motor is whose: servos, and what CAN moves, if anything."""
+
+    servos: ServoMap
+    can: JointMap | None
+
+
+def maps(robot: RobotDescription) -> Maps:
+    """What `dynamixel.yaml` beside a description says; what it leaves to `can.yaml`, of that.
+
+    Raises:
+        ConfigError: either says what cannot be meant, a motor is in neither, or their rates differ.
+    """
+    servos = joint_map.beside(robot)
+    rest = [name for name in robot.motor_names if name not in servos.joints]
+    if not rest:
+        return Maps(servos, None)
+    whole = can_map.load(robot.path().with_name(can_map.FILE))
+    joints = {name: one for name, one in whole.joints.items() if name not in servos.joints}
+    used = {one.bus for one in joints.values()}
+    buses = {name: bus for name, bus in whole.buses.items() if name in used}
+    can = can_map.of_robot(msgspec.structs.replace(whole, buses=buses, joints=joints), rest)
+    if can.rate_hz != servos.rate_hz:
+        text = f"servos are commanded at {servos.rate_hz} Hz, the motors on CAN at {can.rate_hz}"
+        raise ConfigError([Problem(text, servos.file, suggestion="give both the same rate_hz")])
+    return Maps(servos, can)
+
+
+def make(wiring: Wiring) -> MotorBus:
+    """The motors that `dynamixel.yaml` beside the description names, and the others.
+
+    Raises:
+        ConfigError: as `maps`.
+        DriverError: the user does not let robots open one of the ports or buses.
+    """
+    servos, can = maps(wiring.robot)
+    if wiring.emulated is not None:
+        plant = wiring.simulated_plant()
+        time, here = PlantClock(plant), ports_in(servos, wiring.emulated)
+        moved = DynamixelMotors(
+            here, time, ports=lambda: EmulatedPorts(here, plant), tell=print, waits=can is None
+        )
+        if can is None:
+            return moved
+        there = buses_in(can, wiring.emulated)
+        others = CanMotors(there, time, ports=lambda: EmulatedBuses(there, plant, time), tell=print)
+        return ServosAndOthers(wiring.robot.motor_names, moved, others)
+    check_ports(servos.ports)
+    clock = wiring.clock
+    moved = DynamixelMotors(
+        servos, clock, ports=lambda: SerialPorts(servos.ports), tell=print, waits=can is None
+    )
+    if can is None:
+        return moved
+    check_buses(can.buses)
+    others = CanMotors(can, clock, ports=lambda: PythonCan(can.buses, clock), tell=print)
+    return ServosAndOthers(wiring.robot.motor_names, moved, others)
+
+
+class ServosAndOthers(Closing):
+    """Both as one; CAN sets the pace.
+
+    CAN motors have the shorter watchdogs, and bear the robot: they are written to and left first.
+    """
+
+    def __init__(self, order: Sequence[str], servos: DynamixelMotors, others: CanMotors) -> None:
+        """Know them; nothing is opened.
+
+        Args:
+            order: the robot's motors.
+            servos: of some of them; it must not wait (`waits`).
+            others: of all the rest.
+        """
+        self.servos, self.others = servos, others
+        places = {name: index for index, name in enumerate(order)}
+        self._count = len(places)
+        self._mine = np.array([places[name] for name in servos.joints.joints], np.intp)
+        self._theirs = np.array([places[name] for name in others.joints.joints], np.intp)
+
+    @property
+    def capabilities(self) -> frozenset[Capability]:
+        """What both can do."""
+        return self.servos.capabilities & self.others.capabilities
+
+    def __enter__(self) -> Self:
+        """Open both. Raises DriverError if one cannot be."""
+        self.others.__enter__()
+        try:
+            self.servos.__enter__()
+        except BaseException:
+            self.others.close()
+            raise
+        return self
+
+    def close(self) -> None:
+        """Leave all motors damped, unless another driver commands them, and close."""
+        try:
+            self.others.close()
+        finally:
+            self.servos.close()
+
+    def claim(self) -> bool:
+        """Become the one that commands all motors; False while another one commands any."""
+        return self.others.claim() and self.servos.claim()
+
+    def read(self) -> MotorState:
+        """The state of all. Raises DriverError if one of both went away."""
+        theirs = self.others.read()
+        mine = self.servos.read()
+        return MotorState(
+            stamp_s=theirs.stamp_s,
+            q=self._joined(mine.q, theirs.q),
+            qd=self._joined(mine.qd, theirs.qd),
+            tau=self._joined(mine.tau, theirs.tau),
+            temperature_c=self._joined(mine.temperature_c, theirs.temperature_c),
+            age_s=self._joined(mine.age_s, theirs.age_s),
+            watchdog=mine.watchdog or theirs.watchdog,
+            command_stamp_s=min(mine.command_stamp_s, theirs.command_stamp_s),
+            alarms=_most_severe_first((*theirs.alarms, *mine.alarms)),
+        )
+
+    def write(self, command: MotorCommand) -> MotorCommand:
+        """Command all motors; returns what was really sent.
+
+        Raises:
+            DriverError: as each of both; nothing is sent if a value is not finite.
+        """
+        for field in FIELDS:
+            if (shape := getattr(command, field).shape) != (self._count,):
+                raise DriverError(f"{field} has shape {shape}, motors want ({self._count},)")
+        mine, theirs = self._part(command, self._mine), self._part(command, self._theirs)
+        self.servos.limiter.check(mine)
+        self.others.limiter.check(theirs)
+        if not self.claim():
+            raise DriverError("another controller commands the motors")
+        self.servos.arm()
+        told = self.others.write(theirs)
+        moved = self.servos.write(mine)
+        return MotorCommand(
+            command.stamp_s,
+            *(self._joined(getattr(moved, field), getattr(told, field)) for field in FIELDS),
+        )
+
+    def _part(self, command: MotorCommand, which: npt.NDArray[np.intp]) -> MotorCommand:
+        return MotorCommand(command.stamp_s, *(getattr(command, field)[which] for field in FIELDS))
+
+    def _joined(self, mine: Array, theirs: Array) -> Array:
+        both = np.empty(self._count)
+        both[self._mine], both[self._theirs] = mine, theirs
+        return both
+
+
+def _most_severe_first(alarms: Sequence[MotorAlarm]) -> tuple[MotorAlarm, ...]:
+    return tuple(sorted(alarms, key=lambda alarm: LEVELS.index(alarm.level)))

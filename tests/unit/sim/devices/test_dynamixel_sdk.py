@@ -1,0 +1,114 @@
+"""`dynamixel-sdk`, which nobody here wrote, drives emulated servos through a serial port."""
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from robot.clock import WallClock
+from sim.devices.dynamixel import Kind, Servo
+from sim.devices.serial_line import Line
+from sim.devices.serial_server import SerialServer
+from sim.devices.shaft import FreeShaft
+
+sdk = pytest.importorskip("dynamixel_sdk")
+PATIENCE_S = 60.0
+KIND = Kind(1020, 4.1, 2.3, 4.8, 2.69e-3, 1193)
+
+
+class Served:
+    """Two servos behind a terminal, played by a thread."""
+
+    def __init__(self, folder: Path) -> None:
+        clock = WallClock()
+        self.line = Line(baud_hz=1_000_000, now_s=clock.now_s())
+        self.servos = [
+            Servo(KIND, FreeShaft(inertia_kg_m2=0.02), number, now_s=clock.now_s())
+            for number in (1, 2)
+        ]
+        self.line.servos += self.servos
+        self.path = folder / "dxl0"
+        self.server = SerialServer([(self.path, self.line)], clock)
+        self._ends = threading.Event()
+        self._thread = threading.Thread(target=self._serve)
+        self._thread.start()
+
+    def _serve(self) -> None:
+        while not self._ends.is_set():
+            self.server.step(WallClock().now_s() + 0.01)
+
+    def close(self) -> None:
+        self._ends.set()
+        self._thread.join()
+        self.server.close()
+
+
+@pytest.fixture
+def served(tmp_path: Path) -> Iterator[Served]:
+    made = Served(tmp_path)
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def port(served: Served):
+    opened = sdk.PortHandler(str(served.path))
+    assert opened.setBaudRate(1_000_000)
+    yield opened
+    opened.closePort()
+
+
+def until(holds: Callable[[], bool]) -> None:
+    """Try again: it gives up after 5 ms and a machine may be busy for longer."""
+    ends_s = time.monotonic() + PATIENCE_S
+    while not holds():
+        assert time.monotonic() < ends_s
+        time.sleep(0.002)
+
+
+def test_it_finds_them_switches_them_on_and_moves_them(served: Served, port):
+    ask = sdk.PacketHandler(2.0)
+    until(lambda: ask.ping(port, 1) == (1020, sdk.COMM_SUCCESS, 0))
+    until(lambda: ask.write1ByteTxRx(port, 1, 11, 3) == (sdk.COMM_SUCCESS, 0))
+    until(lambda: ask.write1ByteTxRx(port, 1, 64, 1) == (sdk.COMM_SUCCESS, 0))
+    until(lambda: ask.write1ByteTxRx(port, 1, 11, 0) == (sdk.COMM_SUCCESS, 7))  # locked
+    until(lambda: ask.write4ByteTxRx(port, 1, 116, 2500) == (sdk.COMM_SUCCESS, 0))
+    until(lambda: abs(ask.read4ByteTxRx(port, 1, 132)[0] - 2500) < 10)
+    assert served.servos[0].is_on
+    assert not served.servos[1].is_on
+
+
+def test_it_reads_and_writes_both_at_once(served: Served, port):
+    ask = sdk.PacketHandler(2.0)
+    write = sdk.GroupSyncWrite(port, ask, 84, 2)
+    for number in (1, 2):
+        write.addParam(number, [number, 1])
+    read = sdk.GroupSyncRead(port, ask, 84, 2)
+    for number in (1, 2):
+        read.addParam(number)
+    until(
+        lambda: write.txPacket() == sdk.COMM_SUCCESS and served.servos[1].memory.get(84, 2) == 258
+    )
+    for run in (read.txRxPacket, read.fastSyncRead):
+        until(lambda run=run: run() == sdk.COMM_SUCCESS)
+        assert [read.getData(number, 84, 2) for number in (1, 2)] == [257, 258]
+
+
+def test_at_another_bit_rate_nobody_hears_it(served: Served):
+    port = sdk.PortHandler(str(served.path))
+    assert port.setBaudRate(57_600)
+    try:
+        for _ in range(3):
+            assert sdk.PacketHandler(2.0).ping(port, 1)[1] != sdk.COMM_SUCCESS
+    finally:
+        port.closePort()
+
+
+def test_a_port_that_is_unplugged_hangs_up(served: Served, port):
+    ask = sdk.PacketHandler(2.0)
+    until(lambda: ask.ping(port, 2)[1] == sdk.COMM_SUCCESS)
+    served.server.unplug(0)
+    with pytest.raises(OSError):
+        until(lambda: ask.ping(port, 2)[1] is None)
