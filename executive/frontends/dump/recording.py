@@ -9,7 +9,7 @@ from itertools import takewhile
 from pathlib import Path
 from typing import BinaryIO, TypeVar
 
-from executive.frontends.console.following import Tail
+from executive.frontends.console.tail import Tail
 from executive.frontends.dump.foxglove import Writer
 from executive.frontends.dump.looks import began_s, looks
 from executive.frontends.ending import Ending
