@@ -1,8 +1,8 @@
 """One joint at a workbench: its zero found, and moved a little way by its own motor.
 
 Only the motor of that joint is spoken to. It is enabled by `jog` alone, with a share of its torque,
-and gives none when that ends, however it ends: at its goal, by Ctrl-C, by an alarm. A program that
-is killed leaves a motor that lets go after `WATCHDOG_S`.
+and gives none when that ends, however it ends: at its goal, by a signal, by an alarm. No further
+signal breaks into that. A program that is killed leaves a motor that lets go after `WATCHDOG_S`.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from typing import Literal, TypeAlias
 import msgspec
 import numpy as np
 
+from robot.bringup.end_wish import EndWish
 from robot.clock import Clock
 from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.alarms import Level
@@ -35,11 +36,16 @@ LAG_RAD = 0.15
 """So far behind its target a joint is blocked, or its torque is too little."""
 STIFF_RAD = 0.10
 """At this distance from its target a joint gives all the torque that it may."""
+THERE_RAD, THERE_SHARE = 0.05, 0.5
+"""A joint is there that is so near its goal, and no farther from it than this share of its way.
+
+What hangs on it keeps it behind by `STIFF_RAD` times the share of its torque that this takes."""
 DAMPING_SHARE = 0.05
 SETTLES_S, DAMPS_S = 0.3, 0.5
 RATE_HZ, WATCHDOG_S = 100, 0.1
 """A slow joint needs no more commands, and a busy laptop then loses no reply to speak of."""
 LEAST_SPAN_S = 0.2
+BLOCKED = "look for what blocks it, or give it more with --torque"
 
 
 def opened(joints: JointMap, clock: Clock, opens: Opens | None) -> Ports:
@@ -126,18 +132,27 @@ def zero(
         if not in_motor:
             offset_rad = at_rad - joint.sign * motor_rad / joint.gear
         else:
-            frames = [(joint.bus, joint.family.set_zero(joint.id))]
-            exchange(ports, clock, frames, lambda _: None)
-            driver.reset()
-            driver.reception.forget_where()
-            found_rad = _still_rad(driver, clock, name)
-            if abs(found_rad) > ZERO_SLACK_RAD:
-                text = f"{name} did not take its zero: its motor says {found_rad:.3f} rad"
-                raise DriverError(f"{text} (set it with the maker's tool)")
+            _set_zero(driver, ports, clock, name)
             offset_rad = at_rad
     return Zeroed(
         joint=name, was_rad=was_rad, at_rad=at_rad, offset_rad=offset_rad, is_in_motor=in_motor
     )
+
+
+def _set_zero(driver: CanMotors, ports: Ports, clock: Clock, name: str) -> None:
+    """Let its motor call this position zero. Raises DriverError if it was not seen to."""
+    joint = driver.joints.joints[name]
+    try:
+        exchange(ports, clock, [(joint.bus, joint.family.set_zero(joint.id))], lambda _: None)
+        driver.reset()
+        driver.reception.forget_where()
+        found_rad = _still_rad(driver, clock, name)
+    except KeyboardInterrupt:
+        text = f"stopped on request: {name} was told to take its zero, and was not seen to"
+        raise DriverError(f"{text} (humanoid motors read says where it stands)") from None
+    if abs(found_rad) > ZERO_SLACK_RAD:
+        text = f"{name} did not take its zero: its motor says {found_rad:.3f} rad"
+        raise DriverError(f"{text} (set it with the maker's tool)")
 
 
 def _unlimited(one: JointMap, name: str) -> JointMap:
@@ -171,6 +186,7 @@ def _still_rad(driver: CanMotors, clock: Clock, name: str) -> float:
 # --- jog ---------------------------------------------------------------------------------------
 
 Ending: TypeAlias = Literal["there", "stopped", "blocked", "alarm"]
+STOPPED: tuple[Ending, str] = "stopped", "stopped on request"
 
 
 class Jogged(msgspec.Struct, frozen=True, kw_only=True):
@@ -203,6 +219,7 @@ def jog(
     by_rad: float,
     speed_rad_s: float,
     torque_share: float,
+    wish: EndWish,
     opens: Opens | None = None,
 ) -> Jogged:
     """Move one joint by an angle, gently; its motor lets go afterwards.
@@ -214,6 +231,7 @@ def jog(
         by_rad: how far, from where it is.
         speed_rad_s: at most.
         torque_share: of the joint's torque limit that it may give.
+        wish: ends it; it listens, also while the motor lets go.
         opens: its buses, in tests.
 
     Raises:
@@ -226,11 +244,29 @@ def jog(
     limit_nm = torque_share * joint.torque_limit_nm
     weak = msgspec.structs.replace(joint, torque_limit_nm=limit_nm)
     one = msgspec.structs.replace(one, joints={name: weak})
-    with CanMotors(one, clock, ports=lambda: opened(one, clock, opens), lets_go=True) as driver:
-        from_rad = float(driver.read().q[0])
-        goal_rad = from_rad + by_rad
-        _check_goal(joint, name, from_rad, goal_rad)
-        return _Jog(driver, clock, from_rad=from_rad, goal_rad=goal_rad, speed=speed_rad_s).run()
+    motion: _Jog | None = None
+    try:
+        with CanMotors(one, clock, ports=lambda: opened(one, clock, opens), lets_go=True) as driver:
+            from_rad = _from_rad(driver, name)
+            goal_rad = from_rad + by_rad
+            _check_goal(joint, name, from_rad, goal_rad)
+            motion = _Jog(
+                driver, clock, wish, from_rad=from_rad, goal_rad=goal_rad, speed=speed_rad_s
+            )
+            return motion.run()
+    except KeyboardInterrupt:
+        if motion is None or not motion.begun:
+            raise
+        text = f"not seen to let go: {name}, as that was broken off"
+        raise DriverError(f"{text} (cut the power before you touch it)") from None
+
+
+def _from_rad(driver: CanMotors, name: str) -> float:
+    """Where the joint is. Raises DriverError if its motor has not told that."""
+    state = driver.read()
+    if not np.isfinite(state.age_s[0]):
+        raise DriverError(f"{name} does not say where it is (try again; look at its bus)")
+    return float(state.q[0])
 
 
 def _check_goal(joint: JointMotor, name: str, from_rad: float, goal_rad: float) -> None:
@@ -244,18 +280,23 @@ def _check_goal(joint: JointMotor, name: str, from_rad: float, goal_rad: float) 
 
 
 class _Jog:
-    """One motion: along half a cosine, held for a moment, then damped out."""
+    """One motion: along half a cosine, held for a moment, looked at, then damped out.
+
+    Attributes:
+        begun: whether the motor may have been enabled.
+    """
 
     def __init__(
         self,
         driver: CanMotors,
         clock: Clock,
+        wish: EndWish,
         *,
         from_rad: float,
         goal_rad: float,
         speed: float,
     ) -> None:
-        self._driver, self._clock = driver, clock
+        self._driver, self._clock, self._wish = driver, clock, wish
         ((self._name, joint),) = driver.joints.joints.items()
         self._from_rad, self._goal_rad = from_rad, goal_rad
         self._limit_nm = joint.torque_limit_nm
@@ -263,29 +304,46 @@ class _Jog:
         self._span_s = max(LEAST_SPAN_S, 0.5 * math.pi * abs(goal_rad - from_rad) / speed)
         self._kp = self._limit_nm / STIFF_RAD
         self._most_nm, self._q = 0.0, from_rad
+        self.begun = False
+        self._told_s = self._away_s = 0.0
 
     def run(self) -> Jogged:
-        try:
-            ending, why = self._move()
-        except KeyboardInterrupt:
-            ending, why = "stopped", "stopped on request"
-        self._damp()
+        ending, why = self._move()
+        if self.begun:
+            self._damp()
         return Jogged(
             joint=self._name, from_rad=self._from_rad, to_rad=self._q, goal_rad=self._goal_rad,
             most_nm=self._most_nm, limit_nm=self._limit_nm, ending=ending, why=why,
         )  # fmt: skip
 
     def _move(self) -> tuple[Ending, str]:
+        if self._wish.asked:
+            return STOPPED
+        self.begun = True
         self._command(self._from_rad, 0.0, 0.0)  # enables the motor, which takes its time
-        begun_s = self._clock.now_s()
-        while (passed_s := self._clock.now_s() - begun_s) <= self._span_s + SETTLES_S:
+        begun_s, self._away_s = self._clock.now_s(), 0.0
+        while True:
+            if self._wish.asked:
+                return STOPPED
+            now_s = self._clock.now_s()
+            if (away_s := max(self._away_s, now_s - self._told_s)) > self._driver.joints.watchdog_s:
+                text = f"this program stood still for {away_s:.1f} s, so that its motor let go"
+                return "alarm", f"{text} (jog it again; was it suspended, or is the machine busy?)"
+            passed_s = now_s - begun_s
+            if passed_s > self._span_s + SETTLES_S:
+                return self._looked_at()
             target_rad = self._target(passed_s)
             if (lag_rad := abs(target_rad - self._q)) > LAG_RAD:
-                cure = "look for what blocks it, or give it more with --torque"
-                return "blocked", f"it is {lag_rad:.2f} rad behind ({cure})"
+                return "blocked", f"it is {lag_rad:.2f} rad behind ({BLOCKED})"
             self._command(target_rad, self._kp, DAMPING_SHARE * self._kp)
             if (alarms := self._driver.alarms).level >= Level.HOLD:
                 return "alarm", f"{alarms.on[0].cause} ({alarms.on[0].cure})"
+
+    def _looked_at(self) -> tuple[Ending, str]:
+        """Whether it is there, by what its motor told in the last period."""
+        left_rad = abs(self._goal_rad - self._q)
+        if left_rad > min(THERE_RAD, THERE_SHARE * abs(self._goal_rad - self._from_rad)):
+            return "blocked", f"it ended {left_rad:.3f} rad from its goal ({BLOCKED})"
         return "there", ""
 
     def _target(self, passed_s: float) -> float:
@@ -295,6 +353,8 @@ class _Jog:
     def _command(self, target_rad: float, kp: float, kd: float) -> None:
         values = (np.array([value]) for value in (target_rad, 0.0, 0.0, kp, kd))
         self._driver.write(MotorCommand(self._clock.now_s(), *values))
+        told_s = self._clock.now_s()
+        self._away_s, self._told_s = told_s - self._told_s, told_s
         state = self._driver.read()
         self._q = float(state.q[0])
         self._most_nm = max(self._most_nm, abs(float(state.tau[0])))

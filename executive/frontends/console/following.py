@@ -6,66 +6,15 @@ over is watched in the same way.
 
 from __future__ import annotations
 
-import math
-import os
 from pathlib import Path
-from typing import BinaryIO
 
+from executive.frontends.console.kept import Kept
 from executive.frontends.console.pictures import Pictures
+from executive.frontends.console.tail import Tail
 from executive.journal import journal, motion, sensed
 from executive.journal.reader import Reader
 from executive.journal.run import Run
 from robot import shots
-from robot.ordinary_files import open_ordinary
-
-CHUNK = 1 << 20
-"""Bytes read at a time, so that a long file holds nobody up."""
-
-
-class Tail:
-    """The lines of a file that grows, may not be there yet, and may be begun anew."""
-
-    def __init__(self, path: Path, *, longest: int, most: int) -> None:
-        """Open nothing yet.
-
-        Args:
-            path: of the file.
-            longest: bytes of a line; what is longer is passed over.
-            most: bytes that are read at all.
-        """
-        self._path = path
-        self._longest = longest
-        self._most = most
-        self._file: BinaryIO | None = None
-        self._taken = 0
-        self._begun = b""
-
-    def lines(self) -> list[bytes]:
-        """What has come since the last time, up to `CHUNK` bytes of it, without ends of lines."""
-        file = self._file or self._opened()
-        if file is None or self._taken >= self._most:
-            return []
-        data = file.read(CHUNK)
-        self._taken += len(data)
-        *whole, self._begun = (self._begun + data).split(b"\n")
-        if len(self._begun) > self._longest:
-            self._begun = b""
-        return [line for line in whole if line and len(line) <= self._longest]
-
-    def _opened(self) -> BinaryIO | None:
-        try:
-            file = open_ordinary(self._path)
-        except OSError:  # not there yet
-            return None
-        os.posix_fadvise(file.fileno(), 0, 0, os.POSIX_FADV_SEQUENTIAL)
-        self._file = file
-        return file
-
-    def close(self) -> None:
-        """Close the file."""
-        if self._file is not None:
-            self._file.close()
-            self._file = None
 
 
 class Following:
@@ -73,8 +22,7 @@ class Following:
 
     Attributes:
         folder: of the run.
-        moments: how everything moved, each as the JSON that the page is given.
-        last_s: the time of the last of them.
+        moments: how everything moved, each line the JSON that the page is given.
         sensed: what was sensed and planned, in the same way.
         pictures: what the camera saw, by kind.
     """
@@ -82,20 +30,18 @@ class Following:
     def __init__(self, folder: Path) -> None:
         """Read nothing yet."""
         self.folder = folder
-        self.moments: list[bytes] = []
-        self.last_s = -math.inf
-        self.sensed: list[bytes] = []
         self.pictures = {
             "colour": Pictures(folder / shots.COLOUR_FILE),
             "depth": Pictures(folder / shots.DEPTH_FILE),
         }
-        self._sensed_s = -math.inf
         self._reader = Reader()
         self._events = Tail(
             folder / journal.FILE, longest=journal.MAX_LINE, most=journal.MOST_BYTES
         )
         self._motion = Tail(folder / motion.FILE, longest=motion.MAX_LINE, most=motion.MOST_BYTES)
         self._senses = Tail(folder / sensed.FILE, longest=sensed.MAX_LINE, most=sensed.MOST_BYTES)
+        self.moments = Kept(self._motion, most=motion.MOST_MOMENTS, time_of=_moved_s)
+        self.sensed = Kept(self._senses, most=sensed.MOST_LINES, time_of=_sensed_s)
 
     @property
     def run(self) -> Run:
@@ -107,33 +53,38 @@ class Following:
         """Whether somebody writes it."""
         return journal.is_written(self.folder)
 
+    @property
+    def left_out(self) -> str:
+        """What of the run is not shown, in a few words; empty if all is."""
+        return ", ".join(
+            f"{count:,} {what}" + (" and all later ones" if cut else "")
+            for count, cut, what in (
+                (self.moments.left_out, self.moments.is_cut, "movements"),
+                (self.sensed.left_out, self.sensed.is_cut, "readings of sensors"),
+                (self.run.left_out, self._events.is_cut, "entries of the journal"),
+            )
+            if count or cut
+        )
+
     def read(self) -> bool:
         """Take what has come since; whether there may be more at once."""
-        events, moves, senses = self._events.lines(), self._motion.lines(), self._senses.lines()
+        events = self._events.lines()
         for line in events:
             self._reader.line(line + b"\n")
-        for line in moves:
-            self._move(line)
-        for line in senses:
-            self._sense(line)
-        seen = [one.read() for one in self.pictures.values()]
-        return bool(events or moves or senses) or any(seen)
-
-    def _move(self, line: bytes) -> None:
-        moment = motion.decode(line)
-        sane = moment is not None and moment.t_s > self.last_s
-        if moment is not None and sane and len(self.moments) < motion.MOST_MOMENTS:
-            self.last_s = moment.t_s
-            self.moments.append(line)
-
-    def _sense(self, line: bytes) -> None:
-        one = sensed.decode(line)
-        if one is None or one.t_s <= self._sensed_s or len(self.sensed) >= sensed.MOST_LINES:
-            return
-        self._sensed_s = one.t_s
-        self.sensed.append(line)
+        grown = [one.read() for one in (self.moments, self.sensed, *self.pictures.values())]
+        return bool(events) or any(grown)
 
     def close(self) -> None:
         """Close the files."""
         for one in (self._events, self._motion, self._senses, *self.pictures.values()):
             one.close()
+
+
+def _moved_s(line: bytes) -> float | None:
+    moment = motion.decode(line)
+    return None if moment is None else moment.t_s
+
+
+def _sensed_s(line: bytes) -> float | None:
+    one = sensed.decode(line)
+    return None if one is None else one.t_s

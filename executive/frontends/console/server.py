@@ -108,7 +108,8 @@ class Show:
         if (read or not self.parts) and now_s >= self._told_s + TELL_S:
             self._told_s = now_s
             self.live = self.following.live
-            self.parts = {key: _json(part) for key, part in told(self.following.run).items()}
+            parts = told(self.following.run) | {"left_out": self.following.left_out}
+            self.parts = {key: _json(part) for key, part in parts.items()}
         elif now_s >= self._told_s + 1.0:
             self._told_s = now_s
             self.live = self.following.live
@@ -354,15 +355,14 @@ class Viewer:
             news.append(b'"scene":' + show.scene)
         moments = show.following.moments
         if self._scene and self._moments < len(moments):
-            if not self._moments and len(moments) > BATCH:  # first of all the picture as it is now
-                news.append(b'"latest":' + moments[-1])
-            batch = moments[self._moments : self._moments + BATCH]
-            self._moments += len(batch)
+            if not self._moments:  # first of all the picture as it is now
+                latest, _ = moments.batch(len(moments) - 1, most=1)
+                news += [b'"latest":' + line for line in latest]
+            batch, self._moments = moments.batch(self._moments, most=BATCH)
             news.append(b'"moments":[' + b",".join(batch) + b"]")
         sensed = show.following.sensed
         if self._scene and self._sensed < len(sensed):
-            batch = sensed[self._sensed : self._sensed + BATCH_SENSED]
-            self._sensed += len(batch)
+            batch, self._sensed = sensed.batch(self._sensed, most=BATCH_SENSED)
             news.append(b'"sensed":[' + b",".join(batch) + b"]")
         for key, part in show.parts.items():
             if self._parts.get(key) != part:

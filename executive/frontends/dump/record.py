@@ -18,7 +18,6 @@ from executive.frontends.ending import PATIENCE_S, Ending
 from executive.frontends.new_files import records_of, refuse_inputs, refuse_taken
 from executive.frontends.output import Screen, say
 from executive.journal import journal, past_runs
-from robot.bus.lifeline import Stop
 from robot.clock import WallClock
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
@@ -32,7 +31,9 @@ FINISH_S = 120.0
 
 
 def record(run: str | None, output: Path | None) -> int:
-    """Write a run under way to a file until it ends, or until Ctrl-C; one that is over, whole.
+    """Write a run under way to a file until it ends, one that is over whole; or until Ctrl-C.
+
+    A second signal leaves at once: the file can then be read as far as it was written.
 
     Args:
         run: its folder or a part of its name; None: the newest.
@@ -46,17 +47,19 @@ def record(run: str | None, output: Path | None) -> int:
     path = output or _free(folder)
     refuse_inputs([path], records_of(folder))
     refuse_taken(path)
-    live, stop = journal.is_written(folder), Stop()
-    with _opened(path) as file, Screen(err=True).status("recording") as shown:
+    live = journal.is_written(folder)
+    with (
+        Ending(patience_s=0.0) as ending,
+        _opened(path) as file,
+        Screen(err=True).status("recording") as shown,
+    ):
 
         def tell(t_s: float) -> None:
             shown.update(f"recording {folder.name}: {t_s:.1f} s")
 
         if live:
             say(f"Recording {folder.name}; Ctrl-C ends the recording, not the run.", err=True)
-        _follow(
-            folder, file, is_over=lambda: bool(stop) or not journal.is_written(folder), tell=tell
-        )
+        _follow(folder, file, ending, is_over=lambda: not journal.is_written(folder), tell=tell)
     say(f"Done: {path}")
     return ExitStatus.DONE
 
@@ -156,26 +159,31 @@ def _opened(path: Path) -> Generator[BinaryIO]:
 def _follow(
     folder: Path,
     file: BinaryIO,
+    ending: Ending,
     *,
     is_over: Callable[[], bool],
     tell: Callable[[float], object],
 ) -> None:
-    from executive.frontends.dump.recording import follow  # Foxglove's library: slow to load
-
-    follow(folder, file, is_over=is_over, tell=tell)
+    try:
+        with ending.breaking():
+            from executive.frontends.dump.recording import follow  # Foxglove's library: it is slow
+    except KeyboardInterrupt:
+        if not ending.asked:
+            raise
+        return
+    follow(folder, file, ending=ending, is_over=is_over, tell=tell)
 
 
 def main(folder: str, path: str, parent_pid: str) -> None:
     """Record until standard input ends, or the parent is gone: what it wrote is whole then, too."""
-    stop = Stop()
 
     def is_over() -> bool:
-        return bool(stop) or os.getppid() != int(parent_pid) or bool(select([0], [], [], 0)[0])
+        return os.getppid() != int(parent_pid) or bool(select([0], [], [], 0)[0])
 
     os.nice(10)
     try:
-        with _opened(Path(path)) as file:
-            _follow(Path(folder), file, is_over=is_over, tell=lambda _: None)
+        with Ending(patience_s=0.0) as ending, _opened(Path(path)) as file:
+            _follow(Path(folder), file, ending, is_over=is_over, tell=lambda _: None)
     except ConfigError as error:  # the log is for people
         sys.exit(str(error))
 

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from itertools import takewhile
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, TypeVar
 
-from executive.frontends.console.following import Tail
+from executive.frontends.console.tail import Tail
 from executive.frontends.dump.foxglove import Writer
 from executive.frontends.dump.looks import began_s, looks
+from executive.frontends.ending import Ending
 from executive.journal import journal, motion
 from executive.journal.reader import Reader
+
+T = TypeVar("T")
 
 CHUNK_BYTES = 1 << 17
 """Written at a time: a crash takes along what came in the last second or two."""
@@ -26,14 +30,15 @@ class Recording:
         last_s: the robot's time up to which movements were written [s]; -inf before the first.
     """
 
-    def __init__(self, folder: Path, file: BinaryIO) -> None:
+    def __init__(self, folder: Path, file: BinaryIO, ending: Ending) -> None:
         """Read nothing yet; the file is written once it is known where the run is.
 
         Args:
             folder: of the run.
             file: new and empty; whoever opened it closes it.
+            ending: ends it in the middle of what it takes.
         """
-        self._folder, self._file = folder, file
+        self._folder, self._file, self._ending = folder, file, ending
         self._reader = Reader()
         self._writer: Writer | None = None
         self._events = Tail(
@@ -43,19 +48,25 @@ class Recording:
         self.last_s = -math.inf
 
     def take(self) -> bool:
-        """Write what has come since; whether there may be more at once."""
+        """Write what has come since; whether there may be more at once.
+
+        Raises:
+            KeyboardInterrupt: it was to end before it was known where the run is.
+        """
         lines = self._events.lines()
-        events = [event for line in lines if (event := journal.decode(line)) is not None]
-        for line in lines:
+        events: list[journal.Event] = []
+        for line in self._until_asked(lines):
+            if (event := journal.decode(line)) is not None:
+                events.append(event)
             self._reader.line(line + b"\n")
         writer = self._writer or self._begun()
         if writer is None:
             return bool(lines)
-        for event in events:
+        for event in self._until_asked(events):
             writer.event(event)
         writer.news(self._reader.run)
         moves = self._motion.lines()
-        for line in moves:
+        for line in self._until_asked(moves):
             moment = motion.decode(line)
             if moment is None or abs(moment.t_s) >= journal.MOST_S:
                 continue
@@ -65,12 +76,17 @@ class Recording:
         self._file.flush()
         return bool(lines or moves)
 
+    def _until_asked(self, items: Iterable[T]) -> Iterator[T]:
+        """Those of a list, until it is to end."""
+        return takewhile(lambda _: not self._ending.asked, items)
+
     def _begun(self) -> Writer | None:
         """The writer, once the first event says where the run is."""
         run = self._reader.run
         if not run.events:
             return None
-        motors, scene = looks(run, self._folder)
+        with self._ending.breaking():  # a world, or a file without sense, takes its time
+            motors, scene = looks(run, self._folder)
         self._writer = Writer(
             self._file,
             scene=scene,
@@ -90,24 +106,33 @@ class Recording:
 
 
 def follow(
-    folder: Path, file: BinaryIO, *, is_over: Callable[[], bool], tell: Callable[[float], object]
+    folder: Path,
+    file: BinaryIO,
+    *,
+    ending: Ending,
+    is_over: Callable[[], bool],
+    tell: Callable[[float], object],
 ) -> None:
-    """Write a run to a file until it is over, or to where it had come when that is known.
+    """Write a run to a file until it is over, to where it had come when that is known.
 
     Args:
         folder: of the run.
         file: new and empty.
+        ending: ends it at once, to where it has read.
         is_over: whether no more will come.
         tell: is told the robot's time up to which it has come.
     """
-    recording = Recording(folder, file)
+    recording = Recording(folder, file, ending)
     try:
-        while True:
+        while not ending.asked:
             over = is_over()  # before what is left is read: nothing comes after it
-            while recording.take():
+            while not ending.asked and recording.take():
                 tell(max(0.0, recording.last_s))
             if over:
                 return
             time.sleep(LOOK_EVERY_S)
+    except KeyboardInterrupt:
+        if not ending.asked:
+            raise
     finally:
         recording.close()

@@ -15,6 +15,7 @@ from executive.frontends.motors.options import Check, Jog, Log, OfMap, Scan, Wat
 from executive.frontends.new_files import refuse_taken
 from executive.frontends.output import say, table_screen, write_json
 from robot.bringup import motor_bench, motor_log, motor_tools, servo_tools
+from robot.bringup.end_wish import EndWish
 from robot.bringup.motor_tools import Joints, Seen
 from robot.bringup.servo_tools import Servos
 from robot.clock import WallClock
@@ -200,21 +201,28 @@ def jog(asked: Jog) -> int:
     Raises:
         DriverError: if its motor cannot be enabled, or was not seen to let go.
     """
-    with _joints(asked, is_still=True) as (joints, label):
-        motor_bench.only(joints, asked.joint)
-        if not asked.as_json:
-            say(f"Moving {asked.joint} by {asked.by_rad:g} rad{label}; Ctrl-C stops it.")
-        moved = motor_bench.jog(
-            joints,
-            asked.joint,
-            WallClock(),
-            by_rad=asked.by_rad,
-            speed_rad_s=asked.speed_rad_s,
-            torque_share=asked.torque,
-        )
+    clock = WallClock()
+    with EndWish(clock) as wish:  # until all is said: else nobody knows whether the motor let go
+        with _joints(asked, is_still=True) as (joints, label):
+            motor_bench.only(joints, asked.joint)
+            if not asked.as_json:
+                say(f"Moving {asked.joint} by {asked.by_rad:g} rad{label}; Ctrl-C stops it.")
+            moved = motor_bench.jog(
+                joints,
+                asked.joint,
+                clock,
+                by_rad=asked.by_rad,
+                speed_rad_s=asked.speed_rad_s,
+                torque_share=asked.torque,
+                wish=wish,
+            )
+        return _tell_of_jog(moved, emulated=bool(label), as_json=asked.as_json)
+
+
+def _tell_of_jog(moved: motor_bench.Jogged, *, emulated: bool, as_json: bool) -> int:
     is_there = moved.ending == "there"
-    if asked.as_json:
-        write_json({"emulated": bool(label), "jog": moved})
+    if as_json:
+        write_json({"emulated": emulated, "jog": moved})
         return ExitStatus.DONE if is_there else ExitStatus.FAILED
     if not is_there:
         say(f"no  {moved.joint}: {moved.why}", styled=("no", "red"))

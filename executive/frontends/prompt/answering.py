@@ -7,6 +7,8 @@ from collections.abc import Callable
 from executive.frontends.speaking import Speech
 
 Out = Callable[[str], None]
+MOST_TOLD = 200
+"""Letters of a line that comes to nothing: people know what they typed."""
 
 
 class Answering:
@@ -38,4 +40,5 @@ class Answering:
 
     def refuse_stopped(self, text: str) -> None:
         """Say that a line comes to nothing because there was a stop after it."""
-        self.refuse(f"Not done: “{text}” was there when you said stop")
+        told = text if len(text) <= MOST_TOLD else f"{text[:MOST_TOLD]} ..."
+        self.refuse(f"Not done: “{told}” was there when you said stop")

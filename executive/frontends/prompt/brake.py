@@ -50,6 +50,7 @@ class Brake:
         """
         self.halt = Halt(robot.executive)
         self._stops = 0
+        self._left = False
         self.stops_before: int | None = None
         self._robot = robot
         self._dialogue = dialogue
@@ -116,6 +117,7 @@ class Brake:
         """Let nothing begin any more, and bring the robot to a stand."""
         with self._lock:
             self._stops += 1
+            self._left = True
             if self._robot.busy:
                 self._robot.executive.stop("the operator leaves")
         self._ask_model_no_more()
@@ -127,8 +129,11 @@ class Brake:
         return self._stops + self._robot.interrupts.pressed
 
     def stopped_since(self, stops: int | None) -> bool:
-        """Whether there was a stop since there had been so many (None: since now)."""
-        return stops not in (None, self.stops)
+        """Whether there was a stop since there had been so many (None: since now).
+
+        After `leave` there was, for whatever comes from wherever.
+        """
+        return self._left or stops not in (None, self.stops)
 
     @property
     def stopped(self) -> bool:

@@ -142,6 +142,7 @@ class Robot(Closing):
         self._up = threading.Event()
         self._wake = threading.Event()
         self._leaving = threading.Event()
+        self._admits = threading.Lock()
         self._error: BaseException | None = None
         self._faults: deque[dict[str, Any]] = deque()
         self._thread = threading.Thread(target=self._live, name="robot", daemon=True)
@@ -183,8 +184,15 @@ class Robot(Closing):
         limits: Limits = UNLIMITED,
         origin: Mapping[str, Any] | None = None,
     ) -> int:
-        """Queue a task, as `Session.submit` does; returns its number."""
-        number = self.session.submit(understood, urgent=urgent, limits=limits, origin=origin)
+        """Queue a task, as `Session.submit` does; returns its number.
+
+        Raises:
+            ProcessError: the robot is being closed, and a job would keep it from its end.
+        """
+        with self._admits:
+            if self._leaving.is_set():
+                raise ProcessError("the robot comes to its end, and nothing begins any more")
+            number = self.session.submit(understood, urgent=urgent, limits=limits, origin=origin)
         self.on_submit(number)
         self._wake.set()
         return number
@@ -269,9 +277,10 @@ class Robot(Closing):
 
     def close(self) -> None:
         """Bring the robot to rest, and close everything."""
+        with self._admits:
+            self._leaving.set()
         if self.busy and self.lost is None:
             self.executive.stop("the operator leaves")
-        self._leaving.set()
         self._wake.set()
         self._thread.join(LEAVE_S)
         if self._thread.is_alive():

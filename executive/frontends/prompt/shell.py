@@ -195,10 +195,15 @@ class Shell(Answering):
 
         Args:
             text: what was typed.
-            stops: what `stops` was by then (None: as now); a stop since then is about this line
-                too.
+            stops: what `stops` was by then (None: as now), by whom it was looked then whether it
+                is a cry; a stop since then is about this line too, which is read no more: many
+                may wait, and the robot comes to a stand meanwhile.
         """
         before = self.stops if stops is None else stops
+        if self.brake.stopped_since(stops):
+            with self._turn(before):
+                self.refuse_stopped(text)
+            return
         try:
             if self.stop_at_once(text):
                 return

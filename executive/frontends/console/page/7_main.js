@@ -1,7 +1,7 @@
 // Puts it together: what comes from the server, what a person does, and a picture when one of them is new.
 
 const motion = new Motion(), sensing = new Sensing();
-const parts = { head: {}, tree: [], said: [], health: [], jobs: [], troubles: [] };
+const parts = { head: {}, tree: [], said: [], health: [], jobs: [], troubles: [], left_out: "" };
 const page = {
   scene: null, resting: [], live: null, steers: false, linked: false, now: true, t: 0, playing: false, dirty: true,
   follow: true, names: true, answers: [], then: null, asks: null, drawn: 0, framesMs: [], problem: "", shown: "", over: false,
@@ -41,7 +41,7 @@ function begin(news) {
   page.zone_m = news.zone_m || 0;
   faults.forms = news.faults || [];
   Object.assign(page, { scene: null, live: null, now: true, then: null, shown: news.show, asks: null, over: false, playing: false, answers: [] });
-  Object.assign(parts, { head: {}, tree: [], said: [], health: [], jobs: [], troubles: [] });
+  Object.assign(parts, { head: {}, tree: [], said: [], health: [], jobs: [], troubles: [], left_out: "" });
   trail = 0;
   camera_.ask();
   if (drawing) { drawing.things = []; drawing.way([]); }
@@ -130,7 +130,7 @@ const panels = {
     document.title = `${word}: ${$("title").textContent}`;
     $("phase").textContent = head.phase && head.phase !== "done" ? head.phase : "";
     const about = head.about || {};
-    $("facts").textContent = [about.robot && `${about.robot} in ${about.world}`, about.runtime, motion.charge != null && `battery ${Math.round(100 * motion.charge)} %`].filter(Boolean).join("  ·  ");
+    $("facts").textContent = [about.robot && `${about.robot} in ${about.world}`, about.runtime, motion.charge != null && `battery ${Math.round(100 * motion.charge)} %`, told.left_out && `not shown: ${told.left_out}`].filter(Boolean).join("  ·  ");
     this.banner(head);
     this.steering();
     page.dirty = true;

@@ -10,6 +10,7 @@ from robot.drivers.motors.can.interview import WAITS_S, Answers, exchange, read_
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.drivers.motors.can.mit11 import ENABLED, Ranges, Target
 from robot.drivers.motors.can.ports import Heard, Ports
+from robot.drivers.motors.can.replies import feedback_of
 from robot.errors import DriverError
 
 DAMPING_NM_S = 2.0
@@ -138,7 +139,7 @@ def _told_by(
         if found is None or heard.frame is None:
             return
         name, most = found
-        told = joints.joints[name].family.feedback(heard.frame.data, most)
+        told = feedback_of(joints.joints[name], heard.frame.data, most)
         if told is not None:
             status[name] = told.status
 

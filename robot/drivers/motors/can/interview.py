@@ -11,6 +11,7 @@ from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.drivers.motors.can.mit11 import Feedback, Ranges
 from robot.drivers.motors.can.ports import Heard, Ports
+from robot.drivers.motors.can.replies import feedback_of
 
 ANSWERS_WITHIN_S = 0.008
 """To a frame that had to wait for all others of its bus: they take 0.14 ms each."""
@@ -120,7 +121,9 @@ def _feedback(
             return
         one = joints[name]
         ranges = answers[name].ranges(_asking(one)) or one.expected
-        answers[name].feedback = one.family.feedback(heard.frame.data, ranges)
+        answers[name].feedback = (
+            feedback_of(one, heard.frame.data, ranges) or answers[name].feedback
+        )
 
     frames = [(one.bus, _asking(one).refresh(one.id)) for one in joints.values()]
     for wait_s in WAITS_S:

@@ -11,6 +11,7 @@ from robot.drivers.motors.can.coding import Coding
 from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.can.mit11 import DISABLED, Ranges
 from robot.drivers.motors.can.packed import BUS_OFF, ERROR, RECORD, SHORT_IDS, Bytes
+from robot.drivers.motors.can.replies import is_about_register, may_be_about_register
 from robot.drivers.motors.gearing import Gearing
 from robot.se3 import Array
 
@@ -20,7 +21,6 @@ JUMP_SLACK_RAD = 0.05
 FASTER = 1.5
 """Than its range, at most, a motor may turn from one reply to the next."""
 NOBODY = -1
-_REGISTER_AT, _READ, _WRITE = 2, 0x33, 0x55
 
 
 class Reception:
@@ -52,9 +52,6 @@ class Reception:
         self._replies: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self._coding, self._period_s = coding, joints.period_s
         self._motors = list(joints.joints.values())
-        self._register_of = [
-            None if one.family.asking is None else one.family.asking.reply for one in self._motors
-        ]
         self._first_key = {bus: number * SHORT_IDS for number, bus in enumerate(joints.buses)}
         self._by_key = np.full(SHORT_IDS * len(joints.buses) + 1, NOBODY, np.intp)
         for index, one in enumerate(self._motors):
@@ -81,8 +78,9 @@ class Reception:
         data, lengths = frames["data"], frames["length"]
         ours = which != NOBODY
         ours[ours] = self._coding.is_feedback(lengths[ours], which[ours])
-        for index in np.flatnonzero(ours & _may_be_register(data)).tolist():
-            ours[index] = not self._is_register(int(which[index]), data[index].tobytes())
+        for index in np.flatnonzero(ours & may_be_about_register(data)).tolist():
+            joint = self._motors[int(which[index])]
+            ours[index] = not is_about_register(joint, data[index].tobytes())
         if not ours.all():
             self.ignored += int(np.count_nonzero(~ours))
             which, data, lengths = which[ours], data[ours], lengths[ours]
@@ -103,12 +101,6 @@ class Reception:
         """Buses whose error frames say that their controller went off."""
         told = first[(keys & ERROR != 0) & (keys & BUS_OFF != 0)].tolist()
         return [bus for bus, key in self._first_key.items() if key in told]
-
-    def _is_register(self, index: int, data: bytes) -> bool:
-        """Whether it answers another program that asked for a register."""
-        read = self._register_of[index]
-        reply = None if read is None else read(data)
-        return reply is not None and reply.motor_id == self._motors[index].id
 
     def _believe(
         self, which: npt.NDArray[np.intp], data: Bytes, lengths: Bytes, now_s: float
@@ -146,9 +138,3 @@ class Reception:
     def at_joints(self, gearing: Gearing) -> tuple[Array, Array, Array]:
         """Angles, speeds and torques of the joints; arrays of their own."""
         return gearing.joint_q(self.q), gearing.joint_qd(self.qd), gearing.joint_tau(self.tau)
-
-
-def _may_be_register(data: Bytes) -> npt.NDArray[np.bool_]:
-    """Which look like answers about a register; feedback can, too."""
-    what = data[:, _REGISTER_AT]
-    return (what == _READ) | (what == _WRITE)

@@ -15,6 +15,7 @@ import pytest
 from executive.frontends.dump import record
 from executive.frontends.dump.command import Asked, dump
 from executive.frontends.dump.recording import Recording, follow
+from executive.frontends.ending import Ending
 from executive.journal import journal, motion
 from executive.journal.motion import Moment
 from robot.errors import ConfigError
@@ -46,6 +47,12 @@ def folder(tmp_path):
     return run
 
 
+@pytest.fixture
+def ending():
+    with Ending(patience_s=0.0) as heard:
+        yield heard
+
+
 def grow(folder, name: str, data: bytes) -> None:
     with (folder / name).open("ab") as file:
         file.write(data)
@@ -57,9 +64,9 @@ def messages(data: bytes) -> list[tuple[str, int, bytes]]:
     return sorted((channel.topic, message.log_time, message.data) for _, channel, message in found)
 
 
-def test_what_grew_is_recorded_as_what_is_written_at_the_end(folder):
+def test_what_grew_is_recorded_as_what_is_written_at_the_end(folder, ending):
     file = io.BytesIO()
-    recording = Recording(folder, file)
+    recording = Recording(folder, file, ending)
     assert not recording.take()
     for events, moves in ((LINES[:1], MOVES[:2]), (LINES[1:3], []), (LINES[3:], MOVES[2:])):
         grow(folder, journal.FILE, b"".join(events)[:-3])
@@ -75,14 +82,14 @@ def test_what_grew_is_recorded_as_what_is_written_at_the_end(folder):
     assert messages(file.getvalue()) == messages(whole.read_bytes())
 
 
-def test_what_was_written_before_a_crash_can_be_read(folder, monkeypatch):
+def test_what_was_written_before_a_crash_can_be_read(folder, ending, monkeypatch):
     mcap = pytest.importorskip("mcap.exceptions", reason="the extra `dev` is not installed")
     stream = pytest.importorskip("mcap.stream_reader")
     monkeypatch.setattr("executive.frontends.dump.recording.CHUNK_BYTES", 1000)
     grow(folder, journal.FILE, b"".join(LINES))
     grow(folder, motion.FILE, b"".join(MOVES))
     file = io.BytesIO()
-    recording = Recording(folder, file)
+    recording = Recording(folder, file, ending)
     while recording.take():
         pass
     crashed = file.getvalue()
@@ -94,7 +101,7 @@ def test_what_was_written_before_a_crash_can_be_read(folder, monkeypatch):
     assert found.count("Message") > len(MOVES)
 
 
-def test_it_goes_on_until_no_more_comes_and_then_takes_the_rest(folder):
+def test_it_goes_on_until_no_more_comes_and_then_takes_the_rest(folder, ending):
     grow(folder, journal.FILE, b"".join(LINES))
     looks = []
 
@@ -105,9 +112,55 @@ def test_it_goes_on_until_no_more_comes_and_then_takes_the_rest(folder):
         return len(looks) == 2
 
     file, told = io.BytesIO(), []
-    follow(folder, file, is_over=is_over, tell=told.append)
+    follow(folder, file, ending=ending, is_over=is_over, tell=told.append)
     assert told[-1] == 5.5
     assert sum(topic == "/base_pose" for topic, _, _ in messages(file.getvalue())) == len(MOVES)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_ends_it_in_the_middle_of_a_run_that_is_over(folder, ending, monkeypatch, number):
+    grow(folder, journal.FILE, b"".join(LINES))
+    grow(folder, motion.FILE, b"".join(MOVES))
+    decode = motion.decode
+
+    def decode_and_hear(line: bytes) -> Moment | None:
+        moment = decode(line)
+        if moment is not None and moment.t_s == 2.5:
+            signal.raise_signal(number)
+        return moment
+
+    monkeypatch.setattr(motion, "decode", decode_and_hear)
+    file = io.BytesIO()
+    follow(folder, file, ending=ending, is_over=lambda: True, tell=lambda _: None)
+    assert sum(topic == "/base_pose" for topic, _, _ in messages(file.getvalue())) == 3
+
+
+def test_a_signal_ends_it_while_it_looks_for_where_the_run_was(folder, ending, monkeypatch):
+    grow(folder, journal.FILE, b"".join(LINES))
+
+    def never_ends(*_) -> None:
+        signal.raise_signal(signal.SIGTERM)
+        pytest.fail("it went on")
+
+    monkeypatch.setattr("executive.frontends.dump.recording.looks", never_ends)
+    file = io.BytesIO()
+    follow(folder, file, ending=ending, is_over=lambda: True, tell=lambda _: None)
+    assert file.getvalue() == b""
+
+
+def test_what_does_not_heed_the_first_signal_is_left_by_the_second(folder, monkeypatch):
+    grow(folder, journal.FILE, b"".join(LINES))
+    left = []
+    monkeypatch.setattr(Ending, "_leave", lambda _: left.append(1))
+
+    def heedless(*_, **__) -> None:
+        for _ in range(2):
+            assert not left
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(record, "_follow", heedless)
+    record.record(str(folder), None)
+    assert left
 
 
 def test_a_recorder_whose_parent_is_gone_ends_with_a_whole_file(folder):

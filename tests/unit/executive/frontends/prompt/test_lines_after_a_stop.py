@@ -1,0 +1,72 @@
+"""What waits when the robot is stopped or is to be down: it is not read any more."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from executive.frontends.console.desk import Desk, Order
+from intents.dialogue import Dialogue
+from tests.fakes.puppet_shell import puppet_shell
+from tests.fakes.waiting import eventually
+
+LONG = "go to the table and " * 800
+
+
+def read_nothing(*_: object) -> None:
+    pytest.fail("a line was read that comes to nothing")
+
+
+def test_a_line_from_before_a_stop_is_not_read_again(tmp_path: Path, monkeypatch):
+    said: list[str] = []
+    with puppet_shell(tmp_path, said) as shell:
+        before = shell.stops
+        shell.stop("by another")
+        monkeypatch.setattr(shell.brake, "is_cry", read_nothing)
+        monkeypatch.setattr(Dialogue, "hear", read_nothing)
+        monkeypatch.setattr(shell, "halt_at_once", read_nothing)
+        shell.line(LONG, stops=before)
+    (told,) = [one for one in said if "was there when you said stop" in one]
+    assert len(told) < 300
+
+
+@pytest.mark.parametrize("stops", [None, 10_000])
+def test_nothing_begins_any_more_once_the_robot_is_left(tmp_path: Path, stops: int | None):
+    said: list[str] = []
+    with puppet_shell(tmp_path, said) as shell:
+        shell.leave()
+        shell.line("walk to the shelf", stops=shell.stops if stops else None)
+        assert not shell.robot.executive.jobs
+    assert "walk to the shelf" in said[-1]
+
+
+def test_a_line_that_is_understood_while_the_robot_is_closed_begins_nothing(tmp_path: Path):
+    """It was read for seconds, and whoever closes the robot does not wait for it."""
+    said: list[str] = []
+    with puppet_shell(tmp_path, said) as shell:
+        join = shell.robot._thread.join
+
+        def join_later(timeout: float | None = None) -> None:
+            shell.line("walk to the shelf")
+            join(timeout)
+
+        shell.robot._thread.join = join_later
+    assert said[-1].startswith("Not done: the robot comes to its end")
+    assert not shell.robot.executive.jobs
+
+
+def test_lines_of_a_page_that_wait_do_not_keep_a_robot_up(tmp_path: Path, monkeypatch):
+    said: list[str] = []
+    private = tmp_path / "private"
+    private.mkdir()
+    with puppet_shell(tmp_path, said) as shell:
+        with Desk(shell, folder=tmp_path, private=private) as desk, shell._one_line:
+            desk._heed(Order(line="walk to the shelf"))
+            for _ in range(20):
+                desk._heed(Order(line=LONG))
+            shell.stop("the robot is to be down")
+            shell.leave()
+            monkeypatch.setattr(Dialogue, "hear", read_nothing)
+        assert eventually(lambda: not desk._waiting or desk._worker._work_queue.empty())
+        assert not shell.robot.executive.jobs
