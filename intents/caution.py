@@ -15,8 +15,11 @@ from msgspec.structs import replace
 from rapidfuzz.distance import OSA
 
 from intents import goals as g
+from intents.english.faithfulness import is_superlative, strings
 from intents.english.trouble import Unpromised
+from intents.english.words import lexicon
 from intents.english.words.dictionary import is_english
+from intents.english.words.lexer import COMMA, FULL_STOP, tokenize
 from intents.english.words.lexicon import words
 from intents.english.words.names import NameIndex, index_of
 from intents.english.words.spelling import KNOWN_WORDS
@@ -111,6 +114,9 @@ _SHORT = words("nto ont mot npt noy nof nog nkt n0t dnt dpt")
 """Of words so short only slips of the fingers count: "oot" is "out" to a Scot."""
 _NONE = words("now note not noted nut nor dot lot hot got")
 _AFTER_DO = re.compile(r"\b(?:do|must|should|shall|you) (\w{2,4})\b")
+_ON_A_SIDE = re.compile(r"\bon the (?:far )?(left|right)\b")
+_THEM = words("she he her him his they them their")
+"""Ada, the cup, *she* wants it: who is spoken of is not spoken to."""
 _WORD = re.compile(r"[^\W\d_]+")
 _APART = re.compile(r"\b[a-z]+[';\"][a-z]+\b")
 _NO_VERB = re.compile(r"^\W*(?:(?:please|pls|plz|you|robot|hey)\s+)*(?:no|nope|non)\s+(\w+.*)$")
@@ -134,7 +140,7 @@ def cautious(text: str, said: str, outcome: Outcome, vocabulary: Vocabulary) -> 
     forbids = next(_forbidding(heard, _plain(said)), "")
     if forbids and not _is_kept(text, forbids, goals, vocabulary):
         return Refusal(reason=f"I heard “{forbids}”, and take it that I am not to do that.")
-    doubt = next(_doubts(text, heard, said, vocabulary), "")
+    doubt = next(_doubts(text, heard, said, goals, vocabulary), "")
     if not doubt:
         return outcome
     if isinstance(outcome, Question):
@@ -169,7 +175,9 @@ def _is_kept(text: str, forbids: str, goals: tuple[g.Goal, ...], vocabulary: Voc
     return bool(named) and not broken(goals, [text], vocabulary)
 
 
-def _doubts(text: str, heard: str, said: str, vocabulary: Vocabulary) -> Iterator[str]:
+def _doubts(
+    text: str, heard: str, said: str, goals: tuple[g.Goal, ...], vocabulary: Vocabulary
+) -> Iterator[str]:
     """What may be a negation, or makes an order something that is talked about."""
     read = _plain(said)
     direct = read == heard
@@ -181,11 +189,51 @@ def _doubts(text: str, heard: str, said: str, vocabulary: Vocabulary) -> Iterato
     yield from (one for one in _slips(text, index_of(vocabulary)) if direct or one not in read)
     if direct:
         return
+    told = " ".join(strings(goals))
+    yield from (one for one in _WORD.findall(heard) if _is_lost_superlative(one, told))
+    side = _ON_A_SIDE.search(heard)
+    walks = any(isinstance(goal, g.GoTo | g.LookAt | g.Balance) for goal in g.each(goals))
+    if side and side[1] not in told and not walks:
+        yield side.group()
+    yield from _called_first(text, goals, vocabulary)
+    yield from _misplaced(text, goals)
     for found in _TALKS.finditer(heard):
         if found.group() not in read:
             yield found.group()
     if re.search(r"[\"“«].*\w.*[\"”»]\W*(?:is|was|were|means|said|says|sounds)\b", text):
         yield text.strip()
+
+
+def _is_lost_superlative(word: str, told: str) -> bool:
+    """Whether a word that singles one out of several was lost: "the *crustiest* loaf"."""
+    most = lexicon.SUPERLATIVES.get((word,), word)
+    return is_superlative(word) and most not in told and word not in told
+
+
+def _misplaced(text: str, goals: tuple[g.Goal, ...]) -> Iterator[str]:
+    """Where a thing was said to be, where it is read as "near" and that was not said."""
+    said = [token.text for token in tokenize(text)]
+    phrases = {tuple(said[at : at + size]) for at in range(len(said)) for size in range(1, 5)}
+    hows = {how for phrase, how in lexicon.LOCATIVES.items() if phrase in phrases}
+    for goal in g.each(goals):
+        relation = getattr(getattr(goal, "object", None), "relation", None)
+        if relation is not None and relation.how == "near" and hows and "near" not in hows:
+            yield " ".join(max((p for p in phrases if p in lexicon.LOCATIVES), key=len))
+
+
+def _called_first(text: str, goals: tuple[g.Goal, ...], vocabulary: Vocabulary) -> Iterator[str]:
+    """Who is named ahead of an order that brings it to them; a place ahead of one elsewhere."""
+    words = Text(text, vocabulary)
+    match = words.name_at(0)
+    where = match.of("place", "room") if match and words.word(match.end) == FULL_STOP else ""
+    if match and where and where.lower() not in strings(goals):
+        yield words.raw(0, match.end)  # the yard. Find Jonas
+    who = match.of("person") if match else ""
+    if not match or not who or words.word(match.end) != COMMA or _THEM.intersection(words.words):
+        return
+    receivers = [getattr(goal, "to", None) for goal in g.each(goals)]
+    if any(isinstance(to, g.Person) and to.name == who for to in receivers):
+        yield words.raw(0, match.end)
 
 
 def _is_all_forbidden(after: str) -> bool:

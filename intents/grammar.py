@@ -30,7 +30,9 @@ from intents.english.trouble import (
     listing,
 )
 from intents.english.words import lexicon
+from intents.english.words.lexer import FULL_STOP
 from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
 from intents.goals import (
     Answer,
     Balance,
@@ -163,7 +165,8 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
     if text.phrase_end(_HELLO, 0) == len(text):
         return Understood((Greet(person=ME),))
     for at in range(1, len(text)):
-        if text.word(at) == "myself" and text.word(at - 1) not in ("for", "to"):
+        mine = text.word(at) == "myself" and text.word(at - 1) not in ("for", "to")
+        if mine and not _ordered_after(text, at + 1):
             raise Unasked("That is for you to do, as I hear it")
     _refuse_unasked(text)
     sentence = Sentence(text, scope, RULES, history)
@@ -190,6 +193,16 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
         raise Partly(differs, tuple(goals))
     remarks += (remark,) if remark else ()
     return Understood(tuple(goals), tuple(sentence.notes.trace), remarks)
+
+
+def _ordered_after(text: Text, at: int) -> bool:
+    """I was going to do it myself, *but* take it to Ada: whether an order follows."""
+    links = [n for n in range(at, len(text)) if text.word(n) in ("but", "so", FULL_STOP)]
+    return any(
+        verbs_at(text.words, n) and {"i", "we"}.isdisjoint(text.words[link + 1 : n])
+        for link in links
+        for n in (link + 1, link + 2)
+    )
 
 
 def _refuse_unasked(text: Text) -> None:

@@ -25,12 +25,13 @@ _CLAUSE = re.compile(r"[.!?,;:\n\r¡¿。！、，…]+|\s+-+\s+|\s*–\s*")
 _WORD = re.compile(r"[^\W_]+")
 _ADDRESS = words(
     "hey hi yo oi oh ah ahh aah ok okay please robot now just listen sorry excuse me well right "
-    "alright and but so um uh er god jesus christ damn shit man mate buddy dude"
+    "aye alright and but so um uh er god jesus christ damn shit man mate buddy dude"
 )
 """What may be called out before a cry."""
 _SHORT_TIME = r"(?:moment|minute|min|second|sec|mo|tick|jiffy)s?"
 _MANNERS = words("please now robot thanks thank you already ok okay man mate sir buddy")
 """What may follow a cry."""
+_IDLE = _ADDRESS | _MANNERS
 _SUBJECT = r"(?:you|youre|it|its|he|she|they|(?:the|that|my|your) \w+(?: \w+)?)"
 _HARM = (
     r"(?:hit|fall|drop|break|spill|crash|bump|hurt|knock|trip|burn|scratch|crush|collide|tip|slip|"
@@ -72,7 +73,12 @@ _PATTERNS = (
     r"(?:hold|stand) (?:fast|by|down|clear)|hold|stp|sto|stap|stahp|sotp",
     r"hold (?:(?:it|it )?(?:right )?there|it|up|everything|your \w+|the phone|the line|steady|"
     rf"back|off)(?: (?:will you|would you|(?:for )?(?:a|one) {_SHORT_TIME}|(?:you|i|thats) .*))?",
-    r"steady|easy(?: (?:now|there|does it|tiger|boy|girl|easy|on there))?|gently|gentle",
+    r"steady(?: (?:on|now|there))?|easy(?: (?:now|there|does it|tiger|boy|girl|easy|on|on there))?|"
+    r"gently|gentle|hold (?:your )?fire|back (?:it )?up|ease (?:off|up)|leave off|give over|"
+    r"pack (?:it|that) in|cut (?:it|that|this) out.*|"
+    r"(?:not|no) (?:(?:a|one|another|an|single)(?: single)? )?"
+    r"(?:(?:more )?(?:step|inch|move|word|centimet(?:re|er)|millimet(?:re|er)|foot|metre|meter)s?"
+    r"(?: (?:more|further|farther|closer|nearer))?|further|farther|closer|nearer)",
     r"time ?out|hands off.*|slow down.*|slower",
     r"(?:not so|too|way too|much too) (?:fast|close|far|hot|hard|high|low|near|rough|quick|loud|"
     r"dangerous|much|quickly).*",
@@ -93,7 +99,7 @@ _PATTERNS = (
     r"(?:that|this|it|thats|its)(?: s| is)? (?:not (?!enough|bad|far|all)|(?:the )?wrong|enough|"
     r"too|dangerous|no good|mine\b|hot|bad|incorrect|a mistake|far enough|close enough).*",
     r"wrong(?: \w+)?|no more.*|nothing more|(?:that ll|thatll|that will|this will) do.*",
-    r"(?:(?:that|it)(?:s| is| s) )?(?:quite |far |close |more than )?enough"
+    r"(?:(?:that|it)(?:s| is| s) )?(?:(?:quite|far|close|near|more than|just about) ){0,2}enough"
     r"(?: (?:now|already|of (?:that|this|it)|is enough|enough|for now))*",
     # ends a task; the line is then read for what is to end
     r"(?:cancel|abort|quit|pause|interrupt|cease|desist|abandon|terminate|scrap|scratch|drop|"
@@ -132,13 +138,23 @@ _PATTERNS = (
     r"(?: .{0,12})?",
 )
 """Clauses that are a cry from end to end, letter signs left out."""
+_UNMISTAKABLE = re.compile(
+    r"^(?:not|no) (?:a |one |another )|^no further|enough$|your horses$|hold (?:your )?fire"
+)
+"""What is said to nobody but who does something."""
 _CRIES = tuple(re.compile(pattern) for pattern in _PATTERNS)
 _EXCLAIMED = re.compile(r"^\W*(?:help|fire|hey|oi|robot|danger|down|back)\s*!", re.IGNORECASE)
 """With its sign of exclamation a cry; without it, a word that commands begin with."""
+_SCOTS = {
+    "haud": "hold", "hud": "hold", "yer": "your", "nae": "no", "dinnae": "dont", "dinna": "dont",
+    "cannae": "cannot", "mair": "more", "wheesht": "enough", "aff": "off",
+}  # fmt: skip
 _KEYWORDS = ("wait", "careful", "enough", "hold on", "watch out", "look out", "hang on", "pause")
 _OTHER_WORDS = words("want what waist watt wet bait gait waits waiter waiting weight")
 _NO = re.compile(
-    r"^(?:(?:oh|no+|nope|wait|hold on|hang on)\b\s*)+(?!not\b|don|way\b|more\b)", re.IGNORECASE
+    r"^(?:(?:oh|no+|nope|wait|hold on|hang on)\b\s*+)+"
+    r"(?!not\b|don|way\b|more\b|further\b|farther\b|closer\b|nearer\b|another\b|one more\b)",
+    re.IGNORECASE,
 )
 """*No* the blue one."""
 _DRAWN_OUT = re.compile(r"(\w)\1{2,}")
@@ -163,10 +179,23 @@ def without_care(text: str) -> str:
     return _CARE.sub("", text)
 
 
+def is_insistent(text: str) -> bool:
+    """Whether a cry to halt is one to whoever hears it, be they under way or not.
+
+    It is called out, said more than once or in more than one way, and asks for nothing else.
+    """
+    if not is_halt(text) or besides(text):
+        return False
+    clauses = [found for one in _CLAUSE.split(bare(text)) if (found := _words_of(one))]
+    cries = [one for one in clauses if _is_cry(one)]
+    plain = any(_UNMISTAKABLE.search(" ".join(one)) for one in cries)
+    return plain or "!" in text or len(cries) > 1 or any(_once(one) != one for one in cries)
+
+
 def besides(text: str) -> str:
     """What a cry to halt says besides: *the hall* in "wait, the hall"; empty if it is all cry."""
     clauses = [one.strip() for one in _CLAUSE.split(text) if _WORD.search(one)]
-    left = [one for one in clauses if not is_halt(one) and set(_words_of(bare(one))) - _ADDRESS]
+    left = [one for one in clauses if not is_halt(one) and set(_words_of(bare(one))) - _IDLE]
     if left or not clauses:
         return ", ".join(left)
     return _NO.sub("", clauses[-1]) if _NO.match(clauses[-1]) else ""
@@ -175,7 +204,17 @@ def besides(text: str) -> str:
 def _words_of(clause: str) -> list[str]:
     """The words of a clause, with what is written with an apostrophe as one."""
     joined = re.sub(r"(?<=\w)'(?=\w)", "", clause)
-    return [_DRAWN_OUT.sub(r"\1", word) for word in _WORD.findall(joined)]
+    said = [_DRAWN_OUT.sub(r"\1", word) for word in _WORD.findall(joined)]
+    return [plain for word in said for plain in _SCOTS.get(word, word).split()]
+
+
+def _once(clause: list[str]) -> list[str]:
+    """Wait *wait wait*; hold it *hold it*: a clause without what is only said again."""
+    for size in range(1, len(clause) // 2 + 1):
+        times, rest = divmod(len(clause), size)
+        if not rest and clause == clause[:size] * times:
+            return clause[:size]
+    return clause
 
 
 def _is_address(clause: list[str], *, last: bool) -> bool:
@@ -186,6 +225,7 @@ def _is_address(clause: list[str], *, last: bool) -> bool:
 def _is_cry(clause: list[str]) -> bool:
     if len(clause) > _MOST_WORDS:
         return False
+    clause = _once(clause)
     begins, end = [0], len(clause)
     while begins[-1] < end - 1 and clause[begins[-1]] in _ADDRESS:
         begins.append(begins[-1] + 1)

@@ -30,7 +30,7 @@ from intents.english.words import lexicon
 from intents.english.words.lexer import singular, tokenize
 from intents.english.words.names import index_of
 from intents.english.words.text import Text
-from intents.goals import Cancel, Goal, LookAt, ObjectQuery, Stop
+from intents.goals import Cancel, Goal, LookAt, ObjectQuery, Stop, Wait
 from intents.grammar import read
 from intents.grounding import (
     Ambiguous,
@@ -43,6 +43,7 @@ from intents.grounding import (
     narrowed,
     queries,
 )
+from intents.halting import is_insistent
 from intents.languages import language_of, only_english
 from intents.outcomes import Choice, Goals, Outcome, Question, Refusal
 from intents.second_look import Attempt, just_that, remarked, second_look
@@ -64,6 +65,8 @@ ANSWERED = (
 """What is told to who asks what cannot be read."""
 _ERRAND = re.compile(r"\bstop(?:ping)? (?:by|in|off|over|at|near|for|with|on)\b", re.IGNORECASE)
 """Stop *by* the shop, which may be unknown."""
+_FORBIDS = re.compile(r"\b(?:do not|don'?t|dinn?ae?|never|must not|mustn'?t)\b", re.IGNORECASE)
+"""What forbids something: no cry to stop, to a robot that does nothing."""
 MAX_CHARACTERS = 1000
 """Longer texts are refused: nobody says a thousand characters to a robot at once."""
 
@@ -149,6 +152,12 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         chosen = _completed(text, vocabulary, context, question)
         if chosen:
             return chosen
+    return _read(text, vocabulary, context)
+
+
+def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome, Context]:
+    """What a text asks for that is no cry and no plain answer to an open question."""
+    question = context.question
     heard: dict[str, Attempt] = {}
     found = _looked(text, vocabulary, context, heard)
     outcome, after = _within_bounds(text, vocabulary, context, found)
@@ -162,8 +171,21 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
     last = third_look(text, index, found, _reader(vocabulary, context, heard))
     if last is not found:
         outcome, after = _within_bounds(text, vocabulary, context, last)
-    careful = cautious(text, _said(text, outcome, heard), outcome, vocabulary)
+    careful = _as_cried(text, last, outcome)
+    careful = cautious(text, _said(text, outcome, heard), careful, vocabulary)
     return (careful, context if isinstance(careful, Refusal) else after)
+
+
+def _as_cried(text: str, attempt: Attempt, outcome: Outcome) -> Outcome:
+    """A stop for a cry of which nothing else is made: "easy, easy, that's far enough!"."""
+    if isinstance(outcome, Goals):
+        waits = [goal for goal in outcome.goals if isinstance(goal, Wait) and not goal.duration_s]
+        idle = len(waits) == len(outcome.goals) > 1
+    else:
+        forbids = isinstance(attempt.error, Unasked) and _FORBIDS.search(text)
+        idle = isinstance(outcome, Refusal) and not forbids
+    cried = idle and is_insistent(text)
+    return Goals(goals=(Stop(),), parser="stop") if cried else outcome
 
 
 def _said(text: str, outcome: Outcome, heard: dict[str, Attempt]) -> str:

@@ -68,6 +68,14 @@ CARRYING = (
     | _ORDINALS | _BOARDS | lexicon.CLOTHES | _LOCKS
 ) - lexicon.words("left right finest light other same the to short long one")  # fmt: skip
 """Words of closed classes that say something by themselves: what, how many, which, in what way."""
+_MARKS = frozenset(lexicon.COLORS) | frozenset(lexicon.SIZES)
+_WHICH = frozenset(("the", "that", "this", *_MARKS))
+_NO_SUPERLATIVES = lexicon.words(
+    "best rest test nest vest chest guest forest request interest harvest honest modest west quest "
+    "protest contest arrest invest suggest digest latest earliest dearest jest pest zest latest "
+    "lest midwest northwest southwest crest fest priest tempest almost least everest behest"
+)
+"""Words in -est that single nothing out."""
 _OTHERS = lexicon.words(
     "x y quantity wear whoever whatever whichever robot result total amount given being having "
     "went gone ended floor apartment house ok today fist"
@@ -97,16 +105,52 @@ def left_out(text: Text, goals: Iterable[Goal], passed: Iterable[tuple[int, int]
     """
     told = _Told(tuple(each(goals)))
     silent = {at for start, end in passed for at in range(start, end)}
+    silent -= {at for start, end in passed for at in _singling_out(text, start, end)}
+    silent -= {at for at in silent if _is_told_superlative(text, at, told)}
     dropped: list[LeftOut] = []
     at = 0
     while at < len(text):
         end, carried = (at + 1, True) if at in silent else _carried(text, at, told)
         if not carried:
             grave = text.word(at) in CARRYING - lexicon.EMPTY_ADJECTIVES
+            grave = grave or is_superlative(text.word(at))
             slight = not grave and (_describes(text, end, told) or _owns(text, at, told))
             dropped.append(LeftOut(text.raw(at, end), slight))
         at = max(end, at + 1)
     return dropped
+
+
+def is_superlative(word: str) -> bool:
+    """Whether a word looks like a superlative, be it one that no list has: "teensiest"."""
+    return word.endswith("est") and len(word) > 2 and word not in _NO_SUPERLATIVES
+
+
+def _singling_out(text: Text, start: int, end: int) -> Iterator[int]:
+    """Names, colours and sizes in "it's *the one* on the shelf": what tells which one is meant.
+
+    That is a part of the order wherever it is said, however much it looks like background.
+    """
+    ones = [n for n in range(start + 1, end) if text.word(n) in lexicon.ONES]
+    first = next((n for n in ones if text.word(n - 1) in _WHICH), None)
+    if first is None:
+        return
+    if text.word(first - 1) in _MARKS:
+        yield first - 1
+    for n in range(first + 1, end):
+        match = text.name_at(n)
+        if text.word(n) in _MARKS or (match is not None and not match.of("person")):
+            yield n
+
+
+def _is_told_superlative(text: Text, at: int, told: "_Told") -> bool:
+    """Whether it is told of a thing that it is the smallest, and something is done with any.
+
+    "The *smallest* cap's for Ada, give it to her"; what is taken back has come back otherwise.
+    """
+    most = text.lookup(lexicon.SUPERLATIVES, at)
+    match = text.name_at(most[1]) if most else None
+    thing = match.of("object", "category") if match else ""
+    return bool(thing) and told.name(thing) and not told.words & _SUPERLATIVE_WORDS
 
 
 class _Told:

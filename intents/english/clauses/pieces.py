@@ -13,7 +13,7 @@ from intents.english.phrases.complements import Complement, read_complements
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.phrase import NounPhrase
 from intents.english.words import lexicon
-from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.lexer import COMMA, FULL_STOP, singular
 from intents.english.words.measures import number
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
@@ -239,3 +239,14 @@ def _tells_which(said: NounPhrase, thing: NounPhrase) -> bool:
     thing.superlative = said.superlative or thing.superlative
     thing.count = said.count or thing.count
     return True
+
+
+def all_of_them(things: Complement) -> None:
+    """Tools to the shed: what is named in the plural, without a word before it, is all of it."""
+    for phrase in things.phrases:
+        said, name = phrase.said.split(), phrase.name("object", "category").split()
+        chosen = phrase.determiner or phrase.count or phrase.superlative
+        chosen = chosen or phrase.color or phrase.size
+        several = said and singular(said[-1]) != said[-1] and name and name[-1] != said[-1]
+        if several and not chosen:
+            phrase.count = "all"

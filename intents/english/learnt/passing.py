@@ -4,7 +4,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from intents.english.clauses.parentheses import INTERJECTIONS
-from intents.english.faithfulness import CARRYING
+from intents.english.faithfulness import CARRYING, is_superlative
 from intents.english.learnt.background import Passed, background
 from intents.english.learnt.looks import Said, said
 from intents.english.learnt.rewording import is_unheard_verb
@@ -297,7 +297,8 @@ def _picks_out(heard: list[str], *, short: bool) -> bool:
     just = heard[0] in ("just", "only") and short
     figures = short and any(one[0].isdigit() or one in _NUMBERS for one in heard)
     coloured = any(one in _PICKING and two == "one" for one, two in pairwise(heard))
-    return heard[0] in _PICKING or "ones" in heard or coloured or counts or just or figures
+    singled = heard[0] in _PICKING or "ones" in heard or any(map(is_superlative, heard))
+    return singled or coloured or counts or just or figures
 
 
 def _leads_there(heard: list[str], index: NameIndex) -> bool:

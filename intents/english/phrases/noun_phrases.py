@@ -24,6 +24,8 @@ _EXCEPT = lexicon.phrases(
     "with the exception of,not counting,leaving out,different from,different to,different than"
 )
 _IS = lexicon.words("is are was were")
+_OF_A_PART = ("on", "at")
+"""*On* the left of the shelf is on it; *left of* the oven, or *to* its left, is beside it."""
 _LEFT_RIGHT = {"left": "leftmost", "right": "rightmost"}
 _RELATIVE = lexicon.words("that which who whose")
 
@@ -453,7 +455,8 @@ def _locative(text: Text, phrase: NounPhrase, at: int) -> int | None:
         by_another = how in ("in", "near", "in_front", "behind", "left", "right")
         if not in_room and not (by_another and inner.name("place")):
             return None
-    phrase.places.append(Locative(how, inner))
+    part = how in ("left", "right") and text.word(at) in _OF_A_PART
+    phrase.places.append(Locative(how, inner, part=part))
     if how == "on" and text.word(inner.end - 1) == "floor" and phrase.is_person:
         phrase.posture = phrase.posture or "lying"
     if how == "between" and text.word(inner.end) == "and":

@@ -31,12 +31,14 @@ SAID_HOW: dict[How, str] = {
 class Locative:
     """Where something is: a preposition and what follows it; ``how`` None is plain "at".
 
-    Between two things, ``other`` is the second.
+    Between two things, ``other`` is the second. With ``part`` it is said of furniture which part of
+    it is meant ("*on* the left of the shelf"), without it what is beside it ("left of the oven").
     """
 
     how: How | None
     of: "NounPhrase"
     other: "NounPhrase | None" = None
+    part: bool = False
 
 
 @dataclass(slots=True)

@@ -129,6 +129,8 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
         Unclear: Several names of the vocabulary fit.
     """
     at, relation = _where(phrase, scope)
+    if phrase.noun == "one" and scope.object and not phrase.places:  # of those on the table
+        at, relation = scope.object.at, scope.object.relation
     if phrase.said == HELD:
         return ObjectQuery(held=True)
     if phrase.noun == "pronoun" and scope.unknown:
@@ -142,11 +144,10 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
         raise Misfit(f"“{phrase.said}” is not an object")
     name, category = _object_name(phrase, scope, spots)
     superlative = phrase.superlative
-    for place in phrase.places:
-        if place.how in ("left", "right") and place.of.is_spot and not superlative:
-            superlative = "leftmost" if place.how == "left" else "rightmost"
-    if phrase.side and superlative is None:
-        superlative = "leftmost" if phrase.side == "left" else "rightmost"
+    sides = [one.how for one in phrase.places if one.part and one.of.is_spot] + [phrase.side]
+    side = next(filter(None, sides), None)
+    if side and superlative is None:
+        superlative = "leftmost" if side == "left" else "rightmost"
     color, size = phrase.color, phrase.size
     if phrase.noun == "one" and name:
         other = scope.index.sibling(name, color=color, size=size)
@@ -231,7 +232,9 @@ def to_person(phrase: NounPhrase, scope: Scope) -> Person:
     """
     if phrase.noun == "operator":
         return ME
-    at, _ = _where(phrase, scope)
+    at, beside = _where(phrase, scope)
+    if at is None and beside and beside.how in ("left", "right") and not beside.of.category:
+        at = beside.of.name  # who stands right of the door is at the door
     if phrase.noun in ("pronoun", "one"):
         if scope.person is None:
             raise Unclear("Who is meant?")
@@ -358,7 +361,7 @@ def _relation(place: Locative, scope: Scope) -> Relation | None:
     unknown = place.of.noun == "unknown"
     if unknown or place.of.is_person or (spot and place.how in (None, "on", "in", "near")):
         return None
-    if spot and place.how in ("left", "right") and not place.of.name("object"):
+    if spot and place.part and not place.of.name("object"):
         return None
     of = replace(to_object(place.of, scope, spots=True), at=None)
     other = to_object(place.other, scope, spots=True) if place.other else None

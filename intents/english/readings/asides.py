@@ -162,6 +162,8 @@ def forbidden(sentence: Sentence, at: int) -> Found | None:
     if text.word(start - 1) in ("than", "of"):
         end = _before_order(text, start, end)
     said = text.words[at:end]
+    if text.word(at) == "no" and end < len(text) and "?" in text.tokens[end].raw:
+        return None  # no milk there? That asks
     if end == start or (text.word(at) == "no" and not is_content(text, start)):
         return None
     _mention(sentence, start, end, described=True)
@@ -231,8 +233,14 @@ def _mention(sentence: Sentence, start: int, end: int, *, described: bool = Fals
         if person:
             sentence.scope.mention(Person(name=person))
         elif thing and not sentence.before:
-            known = _described(sentence, n) if described else None
+            known = _described(sentence, n)
+            known = known if described or not known else _by_looks(known, thing)
             sentence.scope.mention(known or ObjectQuery(name=thing))
+
+
+def _by_looks(known: ObjectQuery, name: str) -> ObjectQuery:
+    """A thing by what it is told from others by, wherever it is: "the *smallest* cap is hers"."""
+    return ObjectQuery(name=name, color=known.color, size=known.size, superlative=known.superlative)
 
 
 def _described(sentence: Sentence, at: int) -> ObjectQuery | None:
@@ -276,6 +284,24 @@ _KIN = lexicon.words(
 _TAKES_BACK = lexicon.words("no nah nope sorry wait rather oops actually pardon")
 
 
+_MODALS = lexicon.words("can could would will might may won't do did")
+
+
+_ENDEARING = lexicon.words("my you our")
+
+
+def _past_endearment(text: Text, at: int) -> int:
+    """Ramesh, *beta*, go and ...: past what somebody is called besides, to the sign before more."""
+    end = at + 1
+    while end < min(at + 4, len(text)) and text.word(end) not in (COMMA, FULL_STOP):
+        says_more = text.word(end) in lexicon.FUNCTION_WORDS - _ENDEARING
+        if says_more or verbs_at(text.words, end) or text.name_at(end):
+            return at
+        end += 1
+    within = text.word(at) == text.word(end) == COMMA and at + 1 < end < len(text)
+    return end if within else at
+
+
 def somebody_else(text: Text) -> str:
     """Who is spoken to by name and is not the robot; empty if nobody is.
 
@@ -285,8 +311,10 @@ def somebody_else(text: Text) -> str:
         match = text.name_at(at)
         end = match.end if match and match.of("person") else at + (text.word(at) in _KIN)
         calls = at == 0 or text.word(0) in ("hey", "hi", "oi", "yo", "okay", "hello")
-        after = skip_openings(text, end)
-        commands = bool(verbs_at(text.words, after)) or after > end + 1
+        called_more = _past_endearment(text, end)
+        after = skip_openings(text, called_more)
+        asked = text.word(called_more + 1) in _MODALS and text.word(called_more + 2) == "you"
+        commands = asked or bool(verbs_at(text.words, after)) or after > end + 1
         noted = end < len(text) and text.tokens[end].raw == ":"  # Ada: sitting or lying?
         if end > at and calls and text.word(end) == COMMA and commands and not noted:
             return text.raw(at, end)

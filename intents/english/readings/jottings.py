@@ -6,7 +6,7 @@ blue, onto the counter". What comes from somewhere and is for nobody is for who 
 
 from dataclasses import replace
 
-from intents.english.clauses.pieces import Pieces, read_pieces
+from intents.english.clauses.pieces import Pieces, all_of_them, read_pieces
 from intents.english.clauses.verb_clauses import framed
 from intents.english.phrases.complements import Complement, connector_end
 from intents.english.phrases.phrase import Locative
@@ -45,6 +45,8 @@ def jotted(sentence: Sentence, at: int) -> Found | None:
     if len(things.phrases) > 1 and not sources:
         _share_places(things)
     verb = "put" if where and where.phrase.noun != "here" else "bring"
+    if verb == "put":
+        all_of_them(things)
     target = [one for one in (who, where) if one]
     sentence.notes.verb = SaidVerb(at, at, (verb,))
     return framed(sentence, verb, verb, [things, *sources, *target], first=at, end=pieces.end)

@@ -4,6 +4,7 @@
 laundry basket, please"; "two bowls on the table, please"; "clipboard to Ada".
 """
 
+from intents.english.clauses.pieces import all_of_them
 from intents.english.clauses.verb_clauses import framed
 from intents.english.phrases.complements import Complement, read_complements
 from intents.english.phrases.phrase import Locative, NounPhrase
@@ -40,6 +41,8 @@ def telegram(sentence: Sentence, at: int) -> Found | None:
     ):
         return None
     verb = "bring" if _is_receiver(where) else "put"
+    if verb == "put":
+        all_of_them(things)
     sentence.notes.verb = SaidVerb(at, at, ("bring" if _is_receiver(where) else "put",))
     return framed(sentence, verb, verb, [things, *rest, where], first=at, end=end)
 

@@ -80,6 +80,8 @@ _TAILS = lexicon.phrases(
     "only please,de,ne,there 's a good chap"
 )
 """What may be said behind a request and adds nothing to it."""
+_LEAVES = lexicon.words("leave let left be is are was am live stand")
+"""*Leave it* alone."""
 _SAYING = lexicon.words("say tell announce shout whisper repeat answer ask sing")
 _SMALL = lexicon.phrases(
     "exactly,at least,at most,up to,no more than,not more than,about,roughly,around,approximately,"
@@ -250,6 +252,8 @@ def _tag(words: list[str], at: int, kept: list[str]) -> int | None:
             if praised and not any(_is_verb(kept, n) for n in range(len(kept))):
                 return None  # a tea would be lovely
             return end if not ambiguous or kept[-1] == COMMA else None
+    if words[at] == "alone" and _closes(words, at + 1) and not _LEAVES.intersection(kept):
+        return at + 1 if any(_is_verb(kept, n) for n in range(len(kept))) else None
     end = at + 2 + (_word(words, at + 1) in ("not", "nt"))
     tagged = words[at] in _TAGS and _word(words, end - 1) in _TAGGED
     spoken = kept[-1] not in lexicon.DETERMINERS and kept[-1] not in ("and", "or", "how", "that")

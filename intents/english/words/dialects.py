@@ -33,6 +33,11 @@ _PREPOSITIONS: dict[lexicon.Phrase, lexicon.Phrase] = {
     ("in", "what", "place"): ("where",), ("on", "which", "place"): ("where",),
     ("say", "me"): ("tell", "me"), ("explain", "me"): ("tell", "me"),
     ("about", "turn"): ("turn", "around"),
+    ("come", "on", "over"): ("come", "over"), ("come", "on", "in"): ("come", "in"),
+    ("come", "on", "back"): ("come", "back"), ("come", "on", "here"): ("come", "here"),
+    ("count", "and", "tell"): ("count",), ("count", "and", "tell", "me"): ("count",),
+    ("all", "the", "way", "on", "the", "left"): ("on", "the", "far", "left"),
+    ("all", "the", "way", "on", "the", "right"): ("on", "the", "far", "right"),
     ("roond",): ("round",), ("ower",): ("over",), ("howay", "ower"): ("come", "over"),
     ("haway", "ower"): ("come", "over"), ("howay", "here"): ("come", "here"),
     ("yem",): ("home",), ("gan",): ("go",), ("giz",): ("give", "us"), ("gis",): ("give", "us"),
@@ -42,7 +47,7 @@ _PREPOSITIONS: dict[lexicon.Phrase, lexicon.Phrase] = {
     ("unto",): ("to",), ("remain", "on", "one"): ("stand", "on", "one"),
     ("stay", "on", "one"): ("stand", "on", "one"), ("keep", "on", "one"): ("stand", "on", "one"),
 }  # fmt: skip
-_LONGEST = 3
+_LONGEST = 6
 _OWNERS = {"me": ("my", _GIVES_ME), "them": ("those", _GIVES_THEM)}
 _THIRD = {"want": "wants", "need": "needs", "require": "requires", "ask": "asks"}
 _ASKED_WITH = lexicon.words("do does did can could will would let make if and or to help")
@@ -72,9 +77,12 @@ def _handled(tokens: list[Token]) -> list[Token]:
     before = [Token("i", ""), *tokens]
     return [
         Token("it", token.raw)
-        if token.text == "am" and last.text in FIRST_WORDS and last.text not in ("i", "who")
+        if token.text == "am"
+        and last.text in FIRST_WORDS
+        and last.text not in ("i", "who", "what")
+        and after.text != "i"
         else token
-        for last, token in zip(before, tokens, strict=False)
+        for last, token, after in zip(before, tokens, [*tokens[1:], Token("", "")], strict=False)
     ]
 
 

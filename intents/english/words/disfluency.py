@@ -27,6 +27,7 @@ _LOST = lexicon.phrases(
     "what do you call it,what do you call them,what do you call that,what are they called,"
     "how is it called,how do you call it,how do you say,how do you say it,how do they call it,"
     "how is the word,what is the word,what is its name,what is the name,what is the thing,"
+    "where was it,where is it,where was that,where is that,which was it,what was it again,"
     "whatsit,whatchamacallit,thingy,thingummy,you know,you know the one"
 )
 """What is said while a word is sought."""
@@ -68,7 +69,7 @@ _STUTTERS = (3, 2)
 def fluent(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens without false starts and without what is said while a word is sought."""
     kept = _denied_first(_as_one(_without_particles(tokens)))
-    kept = _named_anew(_restarted(kept, index), index)
+    kept = _renamed(_named_anew(_restarted(kept, index), index), index)
     for at in range(len(kept) - 2, -1, -1):
         if at >= len(kept) - 2 or kept[at].text not in _ARTICLES:
             continue
@@ -101,7 +102,7 @@ def _without_particles(tokens: list[Token]) -> list[Token]:
         if _HESITATION.fullmatch(token.text) or _is_nowhere(words, at):
             continue
         if token.text in _ASSENTS and kept and before not in _SIGNS and not _tells(words[:at]):
-            if after not in _CLAUSES | {COMMA, FULL_STOP}:
+            if after not in _CLAUSES | {COMMA, FULL_STOP} and before not in _CLAUSES:
                 kept.append(Token(COMMA, ""))  # the cup yeah put it there
             continue
         again = token.text in _TAKEN_UP and words[at + 2 : at + 3] == [token.text]
@@ -139,8 +140,16 @@ def _denied_first(tokens: list[Token]) -> list[Token]:
     words = [token.text for token in tokens]
     for at in range(len(words) - 1, 2, -1):
         closes = at + 1 == len(words) or words[at + 1] in (COMMA, FULL_STOP)
-        link = next((n for n in range(at - 2, max(-1, at - 6), -1) if words[n] == "but"), None)
-        if words[at] == "no" and closes and link is not None and words[at - 1].isalpha():
+        links = ("only", "just") if words[at] == "not" else ("but",)
+        link = next((n for n in range(at - 2, max(-1, at - 6), -1) if words[n] in links), None)
+        stated = words[at - 1] in _STATES  # only the blue one is not
+        if (
+            words[at] in ("no", "not")
+            and not stated
+            and closes
+            and link is not None
+            and words[at - 1].isalpha()
+        ):
             tokens.insert(link + 1, Token("not", tokens.pop(at).raw))
             words.insert(link + 1, words.pop(at))
     return tokens
@@ -204,6 +213,26 @@ def _named_anew(tokens: list[Token], index: NameIndex) -> list[Token]:
     anew = end + (words[end : end + 1] != [] and words[end] in lexicon.DETERMINERS)
     known = index.match(words, anew) if anew < len(words) else None
     return tokens[end:] if known is not None and known.of("object") else tokens
+
+
+def _renamed(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """Put two caps, *no sorry, scarves,* in the bin: a name taken back where the clause goes on."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 4, 1, -1):
+        start = _phrase_end(words, at + 1, _RESTARTS) if words[at] == COMMA else None
+        if start is None or _tells(words[:at]):
+            continue
+        start += words[start : start + 1] == [COMMA]
+        first = start + (words[start : start + 1] != [] and words[start] in lexicon.DETERMINERS)
+        new = index.match(words, first) if first < len(words) else None
+        olds = ((n, index.match(words, n)) for n in range(max(0, at - _MOST_LOST), at))
+        begin, old = next(((n, one) for n, one in olds if one and one.end == at), (at, None))
+        if new is None or old is None or words[new.end : new.end + 1] != [COMMA]:
+            continue
+        alike = {one.kind for one in new.names} & {one.kind for one in old.names}
+        if alike and words[new.end + 1] in _PREPOSITIONS:
+            return [*tokens[:begin], *tokens[first : new.end], *tokens[new.end + 1 :]]
+    return tokens
 
 
 def _begun_alike(words: list[str], at: int, end: int) -> int | None:

@@ -19,6 +19,14 @@ def words(text: str) -> frozenset[str]:
     return listed
 
 
+def unlisted(text: str) -> frozenset[str]:
+    """The words of a text that the grammar does not get to know by that.
+
+    For what says nothing in one place ("*sweet*, bring it") and something in another.
+    """
+    return frozenset(text.split())
+
+
 def phrases(text: str) -> frozenset[Phrase]:
     """The phrases of a text, which stand between commas."""
     listed = frozenset(tuple(phrase.split()) for phrase in text.split(","))
@@ -220,6 +228,7 @@ FILLERS = phrases(
     "if that is all right,if it is okay,if you like,if you want,if you wish,whenever you are ready,"
     "when you are ready,whenever you like,wherever she goes,wherever he goes,wherever they go,"
     "at the moment,at this moment,at present,for the moment,properly,neatly,nicely,tidily,"
+    "by any chance,perchance,by some chance,"
     "mind you,on your way back,on the way back,on your way past,"
     "on your way,wherever i go,everywhere she goes,everywhere he goes,everywhere i go,"
     "see if you can,"

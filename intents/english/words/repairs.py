@@ -11,19 +11,23 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from intents.english.words import lexicon
-from intents.english.words.lexer import COMMA, FULL_STOP, Token
+from intents.english.words.lexer import COMMA, FULL_STOP, Token, singular
 from intents.english.words.measures import measure, number
 
 TAKES_BACK = lexicon.phrases(
     "no,no sorry,sorry,no wait,wait no,no i mean,no i meant,sorry i mean,sorry i meant,i mean,"
     "i meant,i mean to say,i meant to say,or rather,rather,make that,make it,no make that,"
-    "correction,oops,whoops,my mistake,scratch that,i should say,pardon,better,or better"
+    "correction,oops,whoops,my mistake,scratch that,i should say,pardon,better,or better,"
+    "cancel that,scrap that,strike that,delete that,belay that,forget that,negative,or no,"
+    "what am i saying,no better,on second thoughts,on second thought"
 )
 """What is said before what is meant instead."""
 _MARKERS = TAKES_BACK | lexicon.phrases("no no,sorry no,no make it,no better,excuse me")
 _PAUSES = lexicon.phrases("wait,hold on,hang on")
 """Between commas, before a direction alone, these are markers, and else orders."""
-_APART = lexicon.words("no sorry rather correction oops whoops pardon better")
+_ORDERS = lexicon.phrases("cancel,scratch,scrap,delete,strike,say,make it,let us say,call it")
+"""Between a quantity and the one that is meant these are markers, and else orders."""
+_APART = lexicon.words("no sorry rather correction oops whoops pardon better negative")
 """Alone, these are markers only behind a comma."""
 _SIDES = lexicon.words("left right")
 _WAYS = lexicon.words(
@@ -32,11 +36,18 @@ _WAYS = lexicon.words(
 )
 _LEADING = lexicon.words("to with by for at on the my your")
 """What may stand before a direction or a quantity that is said anew."""
+_MARKS: dict[str, str] = {
+    **dict.fromkeys(lexicon.COLORS, "color"),
+    **dict.fromkeys(lexicon.words("big small large little tall short thick thin"), "size"),
+}
+"""What a thing is told by: "the red cup, I mean blue"."""
 _SIDED = lexicon.words("hand arm one side")
 _GOES_ON = lexicon.words("and then please thanks")
 _REPORTS = lexicon.words("say tell announce shout whisper repeat sing ask spell")
 """What is only passed on is said as it was."""
 _LONGEST_MARKER = 4
+_LONGEST_COUNTED = 6
+"""So many words a number and what is counted take."""
 
 
 class _Said(NamedTuple):
@@ -49,10 +60,15 @@ class _Said(NamedTuple):
 
 def repaired(tokens: list[Token]) -> list[Token]:
     """The tokens with every quantity and direction as it was said last."""
-    words = [token.text for token in tokens]
+    words: list[str] = [token.text for token in tokens]
     at = 1
     while at < len(words):
         marked = _marker_end(words, at)
+        again = _counted_anew(words, at, marked) if marked is not None else None
+        if marked is not None and again is not None and not _REPORTS.intersection(words[:at]):
+            tokens = tokens[:again] + tokens[marked:]
+            words = [token.text for token in tokens]
+            continue
         anew = _anew(words, marked) if marked is not None else None
         begins = _begin(words, at)
         old = _last(words, begins, at, anew) if anew else None
@@ -92,7 +108,16 @@ def _one_marker_end(words: list[str], at: int) -> int | None:
         pauses = phrase in _PAUSES and words[end : end + 1] == [COMMA] == words[at : at + 1]
         if pauses and words[end + 1 : end + 2] and words[end + 1] in _WAYS:
             return end + 1
+        counted = end + (words[end : end + 1] == [COMMA])
+        if phrase in _ORDERS and start > at and number(words, counted) and _is_counted(words, at):
+            return counted
     return None
+
+
+def _is_counted(words: list[str], at: int) -> bool:
+    """Whether a quantity was said in the clause before a sign: *two* eggs, say three."""
+    begin = max((n + 1 for n in range(at) if words[n] in (COMMA, FULL_STOP)), default=0)
+    return any(number(words, n) is not None and words[n] != "one" for n in range(begin, at))
 
 
 def _anew(words: list[str], at: int) -> tuple[_Said, int] | None:
@@ -109,6 +134,20 @@ def _anew(words: list[str], at: int) -> tuple[_Said, int] | None:
     following = words[end] if end < len(words) else FULL_STOP
     closes = following in _GOES_ON | {COMMA, FULL_STOP}
     return (found, end) if closes or (found.kind != "way" and following in _WAYS) else None
+
+
+def _counted_anew(words: list[str], at: int, marked: int) -> int | None:
+    """Two eggs, cancel, *three eggs* ...: where the same begins that is counted anew."""
+    count = number(words, marked) if marked < len(words) else None
+    if count is None or words[marked] == "one":
+        return None
+    for begin in range(at - 1, max(-1, at - _LONGEST_COUNTED), -1):
+        old = number(words, begin)
+        thing = [singular(word) for word in words[old.end : at]] if old else []
+        same = [singular(word) for word in words[count.end : count.end + len(thing)]]
+        if old is not None and thing and same == thing:
+            return begin
+    return None
 
 
 def _begins(words: list[str], at: int) -> bool:
@@ -140,6 +179,8 @@ def _said(words: list[str], begin: int, end: int) -> Iterator[_Said]:
         with_unit, counted = measure(words, at), number(words, at)
         if words[at] in _WAYS:
             found = _Said("way", at, at + 1)
+        elif words[at] in _MARKS:
+            found = _Said(_MARKS[words[at]], at, at + 1)
         elif with_unit is not None:
             found = _Said(with_unit.kind, at, with_unit.end)
         elif counted is not None and not (at and words[at] == "one"):  # the red one

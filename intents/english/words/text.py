@@ -5,12 +5,14 @@ from collections.abc import Collection, Mapping
 from copy import copy
 from typing import TypeVar
 
+from intents.english.words.asked_conditions import conditional_questions
 from intents.english.words.asking import plainly_asked
 from intents.english.words.courtesy import ADDRESSES, courtesy_end
 from intents.english.words.dialects import in_standard_words
 from intents.english.words.disfluency import fluent, unrepeated
 from intents.english.words.existentials import uninverted
 from intents.english.words.homophones import as_meant
+from intents.english.words.learners import in_english_order
 from intents.english.words.lexer import COMMA, DASHES, FULL_STOP, QUOTE, Token, tokenize
 from intents.english.words.lexicon import (
     ADVERBS,
@@ -25,14 +27,18 @@ from intents.english.words.lexicon import (
 from intents.english.words.manners import Manner, manners
 from intents.english.words.measures import NUMBER_WORDS
 from intents.english.words.names import Match, NameIndex, index_of
+from intents.english.words.notes import in_sentences
+from intents.english.words.particles import without_particles
 from intents.english.words.pauses import pauses_as_waits
 from intents.english.words.precise import plain_quantities
 from intents.english.words.repairs import repaired
+from intents.english.words.singling_out import singled_out
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
+from intents.english.words.superlatives import listed_superlatives
 from intents.english.words.texting import spelled_out
 from intents.english.words.titles import without_titles
 from intents.english.words.verbs import FIRST_WORDS, participle_base, verbs_at
-from intents.english.words.ways import in_order
+from intents.english.words.ways import hauled, in_order
 from intents.english.words.whatever import all_there_is
 from intents.vocabulary import Vocabulary
 
@@ -47,6 +53,8 @@ _CHECKED = [[word] for word in ("not", "find", "see", "spot", "locate")]
 """After "if you can" these make a condition of it."""
 _ASKED_OF = words("you i me us we not")
 _MODALS = words("might may can could would")
+_PASTS = {"came": "come", "went": "go", "took": "take", "gave": "give", "saw": "see"}
+"""Pasts that are no participles."""
 _WISHING = words("would it i we")
 _ACCOMPANY = words("go come walk stay be is am was wrong matter up do deal along")
 """What "with you" belongs to; else it is only taken along."""
@@ -113,8 +121,10 @@ class Text:
         speller = speller_of(vocabulary)
         corrected: list[Token] = []
         tokens, self.corrections = spelled_out(
-            _without_name(tokenize(text), self.index), self.index
+            listed_superlatives(_without_name(tokenize(text), self.index)), self.index
         )
+        tokens = in_sentences(without_particles(tokens, self.index), self.index)
+        tokens = in_english_order(tokens, self.index)
         begins = True
         pace = _PACE.search(text)
         self.pace = pace.group().strip() if pace else ""
@@ -140,8 +150,9 @@ class Text:
         corrected = plainly_asked(without_titles(corrected, self.index), self.index)
         self.manners: list[Manner]
         corrected, self.manners = manners(corrected)
-        ordered = in_order(fluent(corrected, self.index), self.index)
-        plain = _unfinished(unrepeated(_without_fillers(ordered, self.index)))
+        ordered = in_order(hauled(fluent(corrected, self.index), self.index), self.index)
+        plain = singled_out(_without_fillers(ordered, self.index), self.index)
+        plain = _unfinished(unrepeated(conditional_questions(plain, self.index)))
         plain = _colloquial(in_standard_words(plain, self.index))
         self.tokens: list[Token] = uninverted(plain)
         self.words: list[str] = [t.text for t in self.tokens]
@@ -259,10 +270,22 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
             kept.append(tokens[at])
         elif end < len(words) and words[end] == COMMA and (not kept or kept[-1].text == COMMA):
             end += 1
+            if kept and _is_verb_alone(said):
+                kept.pop()  # go, *if you please,* to the hall
+                said.pop()
         at = end
     while kept and kept[-1].text in (COMMA, FULL_STOP):
         kept.pop()
     return kept
+
+
+def _is_verb_alone(said: list[str]) -> bool:
+    """Whether a clause before a comma is nothing but its verb."""
+    begin = max(
+        (n + 1 for n, word in enumerate(said[:-1]) if word in (COMMA, FULL_STOP)), default=0
+    )
+    clause = said[begin:-1]
+    return bool(clause) and any(end == len(clause) for _, end in verbs_at(clause, 0))
 
 
 def _in_message(said: list[str], index: NameIndex) -> bool:
@@ -301,7 +324,8 @@ def _wished(tokens: list[Token]) -> list[Token]:
     if words[1:2] == ["one"] and words[0] in _MODALS:
         tokens[1] = Token("i", tokens[1].raw)  # might one trouble you for a pear
     for at in range(2, len(words) if words[:1] and words[0] in _WISHING else 0):
-        base = participle_base(words[at]) if words[at - 2 : at] == ["if", "you"] else None
+        asked = words[at - 2 : at] == ["if", "you"]
+        base = participle_base(words[at]) or _PASTS.get(words[at]) if asked else None
         if base:
             tokens[at] = Token(base, tokens[at].raw)
     return tokens

@@ -27,6 +27,11 @@ _AHEAD_OF: dict[Phrase, list[str]] = {
 """Other words for "before" and "after" with what is done."""
 _LINKS = words("and but then so") | {COMMA, FULL_STOP}
 _TO = words("to into towards")
+_WHITHER = phrases("into,onto,to")
+_BETWEEN = words("then back straight right over")
+_OFF = words("off from out")
+_FAR = 7
+"""So many words before its end where something comes from begins."""
 _LONGEST = 4
 
 
@@ -41,6 +46,22 @@ def in_order(tokens: list[Token], index: NameIndex) -> list[Token]:
             or _on_the_way(tokens, said, at)
             or tokens
         )
+    return tokens
+
+
+def hauled(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """Off the shelf *and* into the box: from where and whither, of one and the same thing."""
+    said = [token.text for token in tokens]
+    for at in range(len(said) - 2, 0, -1):
+        begins = next((n for n in (at + 1, at + 2) if tuple(said[n : n + 1]) in _WHITHER), 0)
+        between = {*said[at + 1 : begins]} <= _BETWEEN
+        if said[at] != "and" or not begins or not between or not _spot_end(said, begins + 1, index):
+            continue
+        stop = at - (said[at - 1] == COMMA)
+        if any(said[n] in _OFF and _spot_end(said, n + 1 + (said[n + 1] == "of"), index) == stop
+               for n in range(max(0, stop - _FAR), stop - 1)):  # fmt: skip
+            tokens = [*tokens[:stop], *tokens[begins:]]
+            said = [token.text for token in tokens]
     return tokens
 
 

@@ -8,9 +8,12 @@ from hypothesis import strategies as st
 
 from intents import halting
 from intents.cries import HALTS, STOPS
-from intents.halting import besides, is_halt
+from intents.goals import Stop
+from intents.halting import besides, is_halt, is_insistent
 from intents.letters import bare
+from intents.outcomes import Goals
 from intents.stopping import is_stay, is_stop
+from tests.unit.intents.hotel_words import heard
 
 CRIES = (
     "wait", "wait a minute, that's mine", "wait I forgot something", "wait for me", "hold it",
@@ -108,6 +111,42 @@ def test_a_word_of_another_language_is_itself_in_a_sentence(word: str) -> None:
 def test_what_a_cry_says_besides_is_told(cry: str, rest: str) -> None:
     assert is_halt(cry)
     assert besides(cry) == rest
+
+
+INSISTENT = (
+    "easy, easy, that's far enough!", "enough, thank you, not another step", "haud yer horses!",
+    "ahhh no no no dont!!", "wait wait wait", "not another inch", "no further!", "nae further!",
+    "steady on, steady!", "that's quite close enough", "hold your horses",
+    "careful careful careful",
+    "time out time out", "hud on, hud on", "back up, back up!", "not one step more", "no no no!",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("cry", INSISTENT)
+def test_who_cries_insistently_is_heard_by_who_stands_as_well(cry: str) -> None:
+    assert is_insistent(cry)
+
+
+@pytest.mark.parametrize(
+    "cry",
+    ["easy, easy, that's far enough!", "haud yer horses!", "wait wait wait", "no no no no!",
+     "enough, thank you, not another step", "not another inch", "steady, steady on!"],
+)  # fmt: skip
+def test_a_cry_of_which_nothing_else_is_made_is_a_stop(cry: str) -> None:
+    outcome = heard(cry)
+    assert isinstance(outcome, Goals)
+    assert outcome.goals == (Stop(),)
+
+
+@pytest.mark.parametrize("text", (*ERRANDS, "no! the blue one", "no, on the table", "wait", "no"))
+def test_no_errand_is_cried(text: str) -> None:
+    assert not is_insistent(text)
+
+
+@pytest.mark.parametrize("said", ["don't touch the scarf!", "wait ten seconds", "wait, then wave"])
+def test_an_order_is_no_cry(said: str) -> None:
+    outcome = heard(said)
+    assert not isinstance(outcome, Goals) or Stop() not in outcome.goals
 
 
 @given(st.text(max_size=400))

@@ -1,0 +1,101 @@
+"""Word order and turns of those who think in another language, in the order of English.
+
+"The under the bench lying glove" (the glove under the bench), "take from the loaves the smallest"
+(take the smallest loaf), "show with the finger on the oven" (point at it), "we are having" (we
+have). Each is told by its form, whatever is named in it.
+"""
+
+from intents.english.words.lexer import COMMA, FULL_STOP, Token, singular
+from intents.english.words.lexicon import DETERMINERS, LOCATIVES, SUPERLATIVES, unlisted
+from intents.english.words.names import NameIndex
+
+_LIES = unlisted("lying laying standing sitting hanging placed located being situated")
+_STATES = {"having": "have", "wanting": "want", "needing": "need", "liking": "like"}
+_BE = unlisted("am are is")
+_SHOWS = unlisted("show point indicate")
+_TAKES = unlisted("take bring fetch give get pick choose select")
+_LONGEST = 3
+
+
+def in_english_order(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """The tokens in the order that the grammar knows."""
+    tokens = _pointed(_stated(tokens))
+    for at in range(len(tokens) - 3, -1, -1):
+        tokens = _described_ahead(tokens, at, index) or _chosen_from(tokens, at, index) or tokens
+    return tokens
+
+
+def _stated(tokens: list[Token]) -> list[Token]:
+    """We *are having* two: we have two."""
+    plain: list[Token] = []
+    for token in tokens:
+        meant = _STATES.get(token.text)
+        if (
+            meant
+            and len(plain) > 1
+            and plain[-1].text in _BE
+            and plain[-2].text in ("i", "we", "you")
+        ):
+            plain[-1] = Token(meant, f"{plain[-1].raw} {token.raw}")
+        else:
+            plain.append(token)
+    return plain
+
+
+def _pointed(tokens: list[Token]) -> list[Token]:
+    """Show *with the finger on* the oven: point at it."""
+    said = [token.text for token in tokens]
+    for at in range(len(said) - 4):
+        finger = said[at + 1] == "with" and said[at + 2] in DETERMINERS and said[at + 3] == "finger"
+        if said[at] in _SHOWS and finger and said[at + 4] in ("on", "at", "to"):
+            raw = " ".join(token.raw for token in tokens[at : at + 4])
+            return [
+                *tokens[:at],
+                Token("point", raw),
+                Token("at", tokens[at + 4].raw),
+                *tokens[at + 5 :],
+            ]
+    return tokens
+
+
+def _described_ahead(tokens: list[Token], at: int, index: NameIndex) -> list[Token] | None:
+    """The *under the bench lying* glove: the glove under the bench."""
+    said = [token.text for token in tokens]
+    if said[at] not in DETERMINERS:
+        return None
+    size = next(
+        (n for n in range(_LONGEST, 0, -1) if tuple(said[at + 1 : at + 1 + n]) in LOCATIVES), 0
+    )
+    spot = at + 1 + size
+    first = spot + (said[spot : spot + 1] != [] and said[spot] in DETERMINERS)
+    where = index.match(said, first) if size and first < len(said) else None
+    lies = where is not None and said[where.end : where.end + 1] != [] and said[where.end] in _LIES
+    if where is None or not lies or where.end + 1 >= len(said):
+        return None
+    thing = index.match(said, where.end + 1)
+    if thing is None or not thing.of("object", "category"):
+        return None
+    ahead, noun = tokens[at + 1 : where.end], tokens[where.end + 1 : thing.end]
+    return [*tokens[: at + 1], *noun, *ahead, *tokens[thing.end :]]
+
+
+def _chosen_from(tokens: list[Token], at: int, index: NameIndex) -> list[Token] | None:
+    """Take *from the loaves the smallest*: take the smallest loaf."""
+    said = [token.text for token in tokens]
+    if said[at] not in _TAKES or said[at + 1 : at + 2] not in (["from"], ["of"]):
+        return None
+    first = at + 2 + (said[at + 2] in DETERMINERS)
+    things = index.match(said, first) if first < len(said) else None
+    if things is None or not things.of("object", "category") or singular(said[things.end - 1]) == (
+        said[things.end - 1]
+    ):  # fmt: skip
+        return None
+    the = things.end
+    sizes = range(2, 0, -1)
+    most = next((n for n in sizes if tuple(said[the + 1 : the + 1 + n]) in SUPERLATIVES), 0)
+    end = the + 1 + most
+    closes = end >= len(said) or said[end] in (COMMA, FULL_STOP, "and", "to", "for")
+    if said[the : the + 1] != ["the"] or not most or not closes:
+        return None
+    noun = tokens[first : things.end]
+    return [*tokens[: at + 1], *tokens[the:end], *noun, *tokens[end:]]
