@@ -131,6 +131,10 @@ class Shell(Answering):
         """How often the robot was told to stop; a line from before comes to nothing."""
         return self.brake.stops
 
+    def stops_by(self, begun_s: float | None) -> int:
+        """How often it had been told to stop by then, in seconds since boot (None: by now)."""
+        return self.brake.stops_by(begun_s)
+
     def stop(self, why: str) -> None:
         """Bring the robot to a stand and end all jobs; from any thread."""
         self.brake.stop(why)
