@@ -55,6 +55,7 @@ from intents.goals import (
     Tell,
     each,
 )
+from intents.job_words import Jobs, jobs_to_end
 
 _HELLO = lexicon.phrases(
     "hello,hi,hey,good morning,good evening,good afternoon,hello there,hi there"
@@ -203,6 +204,9 @@ def _refuse_unasked(text: Text) -> None:
     spoken_to = somebody_else(text)
     if spoken_to:
         raise Unasked(f"I take that as said to {spoken_to}, not to me")
+    wanted = jobs_to_end(text.raw(0, len(text)))
+    if wanted is not None and wanted not in (Jobs(every=True), Jobs(current=True)):
+        raise Unasked("I know of no other jobs here than what I am at; the prompt has a queue")
     if leaves_out_step(text):
         raise Unasked(
             "I do what I am at step by step, and leave none out: “cancel” ends it, and then say "

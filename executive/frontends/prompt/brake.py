@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from executive.blackboard import BODY
 from executive.engine.executive import JobError
+from executive.engine.jobs import Job
 from executive.frontends.prompt.answering import Answering
 from executive.frontends.prompt.halt import Halt
 from executive.frontends.prompt.robot import AtWork
@@ -103,6 +104,12 @@ class Brake:
         """It was said what is to become of the jobs that were halted; it is asked no more."""
         if self.halt.on:
             self.halt.forget()
+            self._dialogue.unask()
+
+    def give_up(self, jobs: list[Job]) -> None:
+        """End jobs; where the robot has halted, what is left of it is asked about anew."""
+        self.halt.give_up(jobs, "cancelled on request")
+        if self.halt.on:
             self._dialogue.unask()
 
     def give_up_halted(self) -> None:
