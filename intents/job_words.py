@@ -35,9 +35,10 @@ _ORDINALS = {
     )
     for word in words.split()
 } | {"last": -1, "final": -1, "newest": -1, "latest": -1}  # fmt: skip
-_CARDINALS = dict(
-    zip("one two three four five six seven eight nine ten".split(), range(1, 11), strict=True)
-)
+_CARDINALS = {
+    "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8,
+    "nine": 9, "ten": 10,
+}  # fmt: skip
 _ORD = "|".join(_ORDINALS)
 _NUM = r"\d{1,9}|" + "|".join(_CARDINALS)
 _SEP = r"(?:\s*,\s*(?:and\s+)?|\s+and\s+|\s+or\s+)"
@@ -58,12 +59,8 @@ _BY_PLACE = re.compile(
 _SEVERAL = re.compile(
     rf"(?:the\s+)?(?P<end>first|last)\s+(?P<many>{_NUM})(?P<noun>\s+(?:{_JOB}|ones))?"
 )
-_NEXT = re.compile(
-    rf"(?:the\s+)?(?:next|coming|following)(?P<noun>\s+(?:{_JOB}|one))?"
-)
-_CURRENT = re.compile(
-    rf"(?:the\s+|this\s+|your\s+)?(?:current|running|present)\s+(?:{_JOB}|one)"
-)
+_NEXT = re.compile(rf"(?:the\s+)?(?:next|coming|following)(?P<noun>\s+(?:{_JOB}|one))?")
+_CURRENT = re.compile(rf"(?:the\s+|this\s+|your\s+)?(?:current|running|present)\s+(?:{_JOB}|one)")
 _EVERY = re.compile(
     rf"(?:everything|(?:all|every)(?:\s+of)?(?:\s+(?:the|your|my|these|those))?"
     rf"(?:\s+(?:open|waiting|pending))?\s+{_JOB}|all of them|them all|all of it|all)"

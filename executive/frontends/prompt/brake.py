@@ -26,6 +26,9 @@ from intents.stopping import is_stay, is_stop
 if TYPE_CHECKING:
     from intents.language_model import LanguageModel
 
+ESTOP_IS_ON = (
+    "The emergency stop is on, and nothing moves: `estop release`, then `estop reset`, undo it."
+)
 REMEMBERED = 1000
 """Stops of which it is known when they were."""
 

@@ -83,7 +83,9 @@ class NamingJobs:
     def _no_such(self, number: int) -> str:
         over = [job for job in self._robot.executive.jobs if job.number == number]
         state = over[0].state if over and over[0].state in OVER else ""
-        return f"Job {number} is over: {state}." if state else f"There is no job {number} to be done."
+        return (
+            f"Job {number} is over: {state}." if state else f"There is no job {number} to be done."
+        )
 
     def _open(self) -> list[Job]:
         """The jobs that are to be done, as `goals` lists them."""
@@ -100,12 +102,14 @@ class NamingJobs:
     def _leave_out(self, step: Step, replace: Replace) -> bool:
         open_jobs = self._open()
         if step.what in _POINTED:
-            return step.plainly and self._leave_out_of(open_jobs[:1], step)
+            return step.plainly and self._leave_out_of(open_jobs[:1])
         meant = self._as_goals(step.what)
         speaking = [job for job in open_jobs if self._spoken_of(job, step, meant)]
         if not speaking:
             if step.plainly and open_jobs:
-                self._people.refuse(f"Nothing of what is to be done is called “{step.what}”.", SHOWS)
+                self._people.refuse(
+                    f"Nothing of what is to be done is called “{step.what}”.", SHOWS
+                )
             return step.plainly and bool(open_jobs)
         if len(speaking) > 1:
             numbers = listed([f"{job.number}" for job in speaking])
@@ -123,7 +127,7 @@ class NamingJobs:
             self._people.refuse(f"{BEGUN} (job {job.number}, “{job.text}”).")
         return True
 
-    def _leave_out_of(self, jobs: list[Job], step: Step) -> bool:
+    def _leave_out_of(self, jobs: list[Job]) -> bool:
         """Leave out "that": a job of one step, or it is not known which is meant."""
         for job in jobs:
             if len(self._queue.goals_of(job)) == 1:
@@ -179,6 +183,4 @@ def _is_of(goal: Goal, other: Goal) -> bool:
     if type(goal) is not type(other):
         return False
     fields = other.__struct_fields__
-    return all(
-        getattr(other, name) in (None, (), getattr(goal, name)) for name in fields
-    )
+    return all(getattr(other, name) in (None, (), getattr(goal, name)) for name in fields)

@@ -231,6 +231,8 @@ def leave(clause: Clause, scope: Scope) -> list[Goal]:
     target = slots.take("", "from", "through")
     exit_to = slots.take("to")
     slots.done()
+    if target and target.phrase.noun == "operator" and {"alone", "be"} & set(words):
+        raise NotUnderstood("All right, I leave you alone")
     if target and target.phrase.noun == "pronoun":
         raise Misfit("that is to put something down")
     if exit_to:

@@ -6,11 +6,13 @@ from intents.english.phrases.complements import Clause
 from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood
+from intents.english.words.measures import STEP_M
 from intents.english.words.verbs import base_form
 from intents.goals import (
     OPERATOR,
     Balance,
     BalanceMode,
+    Displacement,
     Find,
     Gesture,
     Goal,
@@ -60,6 +62,9 @@ def stand(clause: Clause, scope: Scope) -> list[Goal]:
             must_be_beside(place.phrase, clause, scope)
             pause: list[Goal] = [Wait(duration_s=duration)] if duration is not None else []
             return [GoTo(place=to_place(place.phrase, scope)), *pause]
+        if slots.direction("backward"):  # stand back: to make room
+            slots.done()
+            return [GoTo(by=Displacement(forward_m=-STEP_M))]
         return _balance(slots, "stand")
     if limb.said not in _LEGS:
         raise NotUnderstood(f"I can stand on one leg or on both, not on my {limb.said}")

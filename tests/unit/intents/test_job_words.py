@@ -43,8 +43,9 @@ def test_jobs_are_told_by_number_and_by_place(said: str, meant: Jobs) -> None:
 
 @pytest.mark.parametrize(
     "said",
-    ["cancel it", "cancel the task", "drop the second cup", "drop the second one", "forget the rest",
-     "clear the table", "skip the wave", "bring me the second cup", "end at the table", "x" * 1000],
+    ["cancel it", "cancel the task", "drop the second cup", "drop the second one",
+     "forget the rest", "clear the table", "skip the wave", "bring me the second cup",
+     "end at the table", "x" * 1000],
 )  # fmt: skip
 def test_what_may_be_about_things_is_about_no_job(said: str) -> None:
     assert jobs_to_end(said) is None
