@@ -24,7 +24,7 @@ DIRECTIONS = ("left", "right", "up", "down", "ahead", "behind", "around")
 GESTURES = (
     "wave", "point", "nod", "shake_head", "bow", "thumbs_up", "clap", "shrug", "dance",
     "shake_hands", "high_five", "cross_arms", "raise_arm", "raise_left_arm", "raise_right_arm",
-    "raise_both_arms",
+    "raise_both_arms", "lower_arm", "lower_left_arm", "lower_right_arm", "lower_both_arms",
 )  # fmt: skip
 PERSON_GESTURES = (
     "waving", "raising arm", "raising left arm", "raising right arm", "pointing left",

@@ -17,10 +17,37 @@ _CORRECTS = re.compile(
     r"|\b(?:instead|rather)\W*$",
     re.IGNORECASE,
 )
+_PLACE = (
+    r"(?:on to|onto|on|in to|into|in|over to|back to|to|under|by|beside|next to|at) "
+    r"(?:the|my|your|a|an|that|this) \w+(?: \w+){0,3}?"
+)
+_EXCUSED = re.compile(
+    rf"^\W*(?:oh\W+)?(?:sorry|pardon(?: me)?|excuse me|whoops|oopsie|my (?:bad|mistake)|better|"
+    rf"i (?:should have|wanted to) sa(?:id|y)|correction)\s*[,;:.!–—-]+\s*"
+    rf"(?:(?:i mean|i meant|no|actually|rather)\W+)*"
+    rf"(?!.*\b(?:is|are|was|were|has|have|needs?|looks?|seems?)\b)"
+    rf"(?:{_PLACE}|(?:the|my|a|an) \w+(?: \w+){{0,3}}?)(?:\W+(?:please|instead|rather))*\W*$",
+    re.IGNORECASE,
+)
+"""Sorry, *the table*: nothing but what is meant follows."""
+_ELSEWHERE = re.compile(
+    r"\W*(?:(?:oh|no|actually|rather|i mean|i meant|make (?:it|that)|better|oops|wait|sorry|pardon"
+    r"|whoops|put (?:it|them|that)|on second thoughts?)\W+)*"
+    rf"(?P<where>{_PLACE})(?:\W+(?:instead|rather|please|i mean|i meant))*\W*",
+    re.IGNORECASE,
+)
+"""Actually, *on the table*; *to the table* instead."""
+_IN_TURN = re.compile(
+    r"^\W*(?:(?:and|but|please|with|do|take)\W+)*"
+    r"(?P<what>the (?:\w+ ){0,3}?\w+ (?:first|last))\W*$",
+    re.IGNORECASE,
+)
+"""*The red one first*, of several things that were asked for."""
 _ADDS = re.compile(r"\b(?:also|too|as well|afterwards|next|after that)\b", re.IGNORECASE)
 """A sentence with one of these comes after the one before it, however it begins."""
 _ANOTHER = re.compile(
-    r"\W*(?:(?:oh|no|not that one|actually|rather|i mean|i meant|make (?:it|that)|better|oops|wait)"
+    r"\W*(?:(?:oh|no|not that one|actually|rather|i mean|i meant|make (?:it|that)|better|oops|wait|"
+    r"sorry|pardon|whoops|on second thoughts?)"
     r"\W+)*(?P<what>(?:the|my|a|an) \w+(?: \w+){0,4}?)(?:\W+(?:instead|rather))?\W*",
     re.IGNORECASE,
 )
@@ -30,14 +57,27 @@ _INSTEAD = re.compile(r"\W+(?:instead|rather)\W*$", re.IGNORECASE)
 
 def is_correction(text: str) -> bool:
     """Whether a sentence says that it takes the place of the one before it."""
-    return bool(_CORRECTS.search(text)) and not _ADDS.search(text)
+    found = _CORRECTS.search(text) or _EXCUSED.search(text)
+    return bool(found) and not _ADDS.search(text)
+
+
+def is_turn(text: str, before: Context) -> bool:
+    """Whether a sentence only says which of what was asked for comes first, or last."""
+    return before.question is None and bool(before.goals and _IN_TURN.match(text))
 
 
 def in_full(text: str, before: Context, vocabulary: Vocabulary) -> str:
     """A correction as the grammar knows it: "the blue one instead" as "no, the blue one"."""
-    if before.question is not None or not before.goals or not is_correction(text):
+    if before.question is not None or not before.goals:
+        return text
+    if turn := _IN_TURN.match(text):
+        return f"no, {turn['what']}"
+    if not is_correction(text):
         return text
     other = _ANOTHER.fullmatch(text)
+    where = _ELSEWHERE.fullmatch(text) if other is None else None
+    if where is not None:
+        return f"no, {where['where']}"
     if other is None:
         return _INSTEAD.sub("", text)
     place = _place_like(other["what"], before.goals[-1], vocabulary)

@@ -11,8 +11,10 @@ from collections.abc import Callable
 from msgspec.structs import replace
 
 from intents import looking_back, plans, replies, small_questions, wording
+from intents.allowed import excess
+from intents.amounts import amended
 from intents.context import Context, answered, noted, verdict_of
-from intents.correcting import in_full, is_correction
+from intents.correcting import in_full, is_correction, is_turn
 from intents.distances import how_far
 from intents.goals import (
     Balance,
@@ -33,6 +35,7 @@ from intents.goals import (
     each,
 )
 from intents.grammar import SHALL_NOT
+from intents.grounding import queries
 from intents.halting import besides, without_care
 from intents.in_hand import which_in_hand
 from intents.outcomes import YES_OR_NO, Goals, Outcome, Question, Refusal, Reply, Turn
@@ -222,8 +225,20 @@ class Dialogue:
         return (self._swapped(text, before) or hear(text, self.vocabulary, context=before))[0]
 
     def _swapped(self, text: str, before: Context) -> tuple[Outcome, Context] | None:
-        """What "not the bottle, the box" makes of the goals before, if they speak of a bottle."""
+        """What "not the bottle, the box" makes of the goals before, if they speak of a bottle.
+
+        Or what "no, three times" does, if one of them has such an amount.
+        """
         opened = before.question
+        other = (
+            None if opened and not small_questions.is_halt(opened) else amended(text, before.goals)
+        )
+        if other is not None:
+            after = replace(before, goals=other, question=None)
+            too_much = excess(other)
+            if too_much:
+                return Refusal(reason=f"{too_much[:1].upper()}{too_much[1:]}."), before
+            return Goals(goals=other, elliptic=True), after
         found = swap(text) if opened is None or small_questions.is_halt(opened) else None
         about = focused(before, found.old) if found else None
         if found is None or about is None:
@@ -345,7 +360,7 @@ class Dialogue:
     def _understand(self, text: str, state: RobotState, opened: Question | None) -> Turn:
         before = replace(self.context, entities=state.entities, view=state.view)
         swapped = self._swapped(text, before)
-        corrects = is_correction(text) or swapped is not None
+        corrects = is_correction(text) or is_turn(text, before) or swapped is not None
         text = in_full(text, before, self.vocabulary)
         outcome, after = swapped or hear(
             text, self.vocabulary, context=before, fallback=self.fallback
@@ -397,6 +412,8 @@ class Dialogue:
             aside = told or small_questions.not_offered(text, opened, alone)
             if isinstance(aside, Reply):
                 return aside
+            if opened.kind == "missing" and opened.about in queries(outcome.goals):
+                return None  # “it” was what was named: that is the answer
             self.dropped = opened.question.removeprefix("I did not get that. ")
             self._asked_before.clear()
         elif isinstance(alone, Question) and isinstance(outcome, Question):

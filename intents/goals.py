@@ -300,7 +300,7 @@ class Balance(_Goal, frozen=True, kw_only=True):
 
 
 class Gesture(_Goal, frozen=True, kw_only=True):
-    """Wave, point, nod, shake_head, bow, thumbs_up ...; at says towards whom or what.
+    """Wave, point, nod, shake_head, bow, raise_arm, lower_arm ...; at says towards whom or what.
 
     ``side`` is the hand or arm it is done with.
     """

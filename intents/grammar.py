@@ -57,6 +57,7 @@ from intents.goals import (
     Tell,
     each,
 )
+from intents.job_words import Jobs, jobs_to_end
 
 _HELLO = lexicon.phrases(
     "hello,hi,hey,good morning,good evening,good afternoon,hello there,hi there"
@@ -68,6 +69,7 @@ _DANGLING = lexicon.words("to into onto from with towards the a an of")
 """Words that no command ends with."""
 
 
+_LEAVES_IT_OUT = re.compile(r"\W*(?:please )?leave (?:it|that|this) out\W*", re.IGNORECASE)
 SHALL_NOT = "All right, I shall not"
 """What is answered to who only says what is not to be done."""
 _OWN_HAND = "I choose the hand myself"
@@ -216,7 +218,10 @@ def _refuse_unasked(text: Text) -> None:
     spoken_to = somebody_else(text)
     if spoken_to:
         raise Unasked(f"I take that as said to {spoken_to}, not to me")
-    if leaves_out_step(text):
+    wanted = jobs_to_end(text.raw(0, len(text)))
+    if wanted is not None and wanted not in (Jobs(every=True), Jobs(current=True)):
+        raise Unasked("I know of no other jobs here than what I am at; the prompt has a queue")
+    if leaves_out_step(text) or _LEAVES_IT_OUT.fullmatch(text.raw(0, len(text))):
         raise Unasked(
             "I do what I am at step by step, and leave none out: “cancel” ends it, and then say "
             "what is left to do"

@@ -339,9 +339,11 @@ def first_look(text: str, vocabulary: Vocabulary, context: Context) -> Attempt:
         choices = tuple(Choice(label=c) for c in unclear.choices)
         kind = "choice" if choices else "missing"
         question = Question(
-            question=str(unclear), choices=choices, text=text, said=unclear.said, kind=kind
-        )
-        return Attempt(question, context, unclear)
+            question=str(unclear), choices=choices, text=text, said=unclear.said, kind=kind,
+            about=unclear.about,
+        )  # fmt: skip
+        after = context if unclear.about is None else replace(context, object=unclear.about)
+        return Attempt(question, after, unclear)
     except ReadingError as error:
         puzzled = not isinstance(error, Unasked)
         asks = isinstance(error, Unread) and words.word(0) in _ASKING

@@ -16,6 +16,8 @@ _GESTURES = {
     "cross_arms": "cross my arms", "high_five": "give a high five",
     "raise_both_arms": "raise both arms", "raise_arm": "raise an arm",
     "raise_left_arm": "raise my left arm", "raise_right_arm": "raise my right arm",
+    "lower_both_arms": "lower both arms", "lower_arm": "lower an arm",
+    "lower_left_arm": "lower my left arm", "lower_right_arm": "lower my right arm",
 }  # fmt: skip
 _REPORTS = {
     "holding": "say what I hold", "seeing": "say what I see", "location": "say where I am",

@@ -1,4 +1,4 @@
-"""Signs to people: wave, point, nod, shake the head, bow, raise an arm."""
+"""Signs to people: wave, point, nod, shake the head, bow, raise an arm; and lower it."""
 
 from __future__ import annotations
 
@@ -29,6 +29,7 @@ from robot.se3 import SE3, Array, Vector3, wrap_angle
 GestureKind = Literal[
     "wave", "point", "nod", "shake_head", "bow",
     "raise_arm", "raise_left_arm", "raise_right_arm", "raise_both_arms",
+    "lower_arm", "lower_left_arm", "lower_right_arm", "lower_both_arms",
 ]  # fmt: skip
 
 HEAD_AHEAD_M = 1.5  # where the description measures a nod
@@ -39,13 +40,21 @@ ARMS: dict[str, tuple[Side, ...]] = {
     "raise_left_arm": ("left",),
     "raise_right_arm": ("right",),
     "raise_both_arms": ("left", "right"),
+    "lower_left_arm": ("left",),
+    "lower_right_arm": ("right",),
+    "lower_both_arms": ("left", "right"),
 }
+LOWERING = ("lower_arm", "lower_left_arm", "lower_right_arm", "lower_both_arms")
+SHOWN_S = 1.0
+"""So long an arm stays up."""
 ONE_HANDED = ("wave", "point", "raise_arm")
 HEAD_ONLY = ("nod", "shake_head")
 DOING: dict[GestureKind, str] = {
     "wave": "waving", "point": "pointing", "nod": "nodding", "shake_head": "shaking the head",
     "bow": "bowing", "raise_arm": "raising an arm", "raise_left_arm": "raising the left arm",
     "raise_right_arm": "raising the right arm", "raise_both_arms": "raising both arms",
+    "lower_arm": "lowering the arms", "lower_left_arm": "lowering the left arm",
+    "lower_right_arm": "lowering the right arm", "lower_both_arms": "lowering both arms",
 }  # fmt: skip
 """What the robot is at, as it stands in a sentence: "I fell while waving"."""
 
@@ -76,7 +85,7 @@ class Gesture(ScriptedSkill[GestureParams]):
     """Make a sign and come back to how the body stood."""
 
     name = "gesture"
-    summary = "wave, point, nod, shake the head, bow, raise an arm"
+    summary = "wave, point, nod, shake the head, bow, raise or lower an arm"
     takes = GestureParams
     resources = frozenset({"legs", "left_arm", "right_arm", "head"})
 
@@ -92,7 +101,7 @@ class Gesture(ScriptedSkill[GestureParams]):
             return f"has no {wanted.side} arm"
         if kind == "point":
             return no_hand(robot)
-        if robot.signs is None:
+        if robot.signs is None and kind not in LOWERING:
             return "knows no gestures of its arms"
         missing = [side for side in ARMS.get(kind, robot.arm_sides) if side not in robot.arm_sides]
         if missing or not robot.arm_sides:
@@ -118,22 +127,25 @@ class Gesture(ScriptedSkill[GestureParams]):
 
     def script(self) -> Script[None]:
         """Face whom it is for, then make it."""
-        kind, p_W = self.parameters.kind, self._target()
-        self.body.phase = DOING[kind]
+        body, kind, p_W = self.body, self.parameters.kind, self._target()
+        body.phase = DOING[kind]
         if p_W is not None:
             if kind not in HEAD_ONLY:
                 yield from self._face(p_W)
-            yield from turn_head(self.body, p_W)
+            yield from turn_head(body, p_W)
         if kind in HEAD_ONLY:
             yield from self._move_head(p_W)
         elif kind == "bow":
-            balance = self.body.description.balance
-            yield from stand_still(self.body, pitch_rad=balance.bow_rad)
-            yield from self.body.wait(balance.bow_s)
-            yield from stand_still(self.body)
+            balance = body.description.balance
+            yield from stand_still(body, pitch_rad=balance.bow_rad)
+            yield from body.wait(balance.bow_s)
+            yield from stand_still(body)
         elif kind == "point":
             assert p_W is not None
             yield from self._point(p_W)
+        elif kind in LOWERING:
+            for side in ARMS.get(kind, body.description.arm_sides):
+                yield from stow_arm(body, side)
         else:
             yield from self._raise(waving=kind == "wave")
 
@@ -189,7 +201,7 @@ class Gesture(ScriptedSkill[GestureParams]):
         for posture in signs.waving * TIMES if waving else ():
             yield from move_arm(body, sides[0], posture_rad(body, sides[0], posture))
         if not waving:
-            yield from body.wait(1.0)
+            yield from body.wait(SHOWN_S)
         for side in sides:
             yield from stow_arm(body, side)
 
@@ -233,7 +245,10 @@ class Gesture(ScriptedSkill[GestureParams]):
 
 
 def _sign_s(kind: GestureKind, paces: Paces) -> float:
-    """How long a sign takes alone; either arm takes as long [s]."""
+    """How long a sign takes alone; either arm takes as long [s], and up as long as down."""
+    if kind in LOWERING:
+        raising = "raise_both_arms" if kind == "lower_both_arms" else "raise_arm"
+        return 0.5 * (float(getattr(paces.signs_s, raising)) - SHOWN_S)
     either = "raise_arm" if kind in ("raise_left_arm", "raise_right_arm") else kind
     return float(getattr(paces.signs_s, either))
 

@@ -24,6 +24,7 @@ from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.referents import to_place
 from intents.english.phrases.times import tells_when
 from intents.english.reading import Found, Sentence, clause_by_itself
+from intents.english.readings.time_clauses import arrived
 from intents.english.repeating import repeated
 from intents.english.sequences import sequence
 from intents.english.substitution import substitute
@@ -41,6 +42,7 @@ from intents.goals import (
     Find,
     ForEach,
     Goal,
+    GoTo,
     If,
     ObjectQuery,
     Present,
@@ -203,6 +205,10 @@ def before_or_after(sentence: Sentence, at: int, last: list[Goal]) -> Found | No
     "Only once you have ...", "not before you have ..." are after; "but before that ..." is before.
     """
     text = sentence.text
+    there = arrived(sentence, at) if last else None
+    if there is not None:
+        way = [goal for goal in there[0] if goal not in sentence.before]
+        return [*way, *last], there[1]
     earlier = _earlier(text, at)
     if earlier is not None:
         other, end = clause_by_itself(sentence, earlier)
@@ -259,10 +265,17 @@ def in_time(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
 
 
 def later(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
-    """Switch the lamp off *in ten minutes*: to wait, and then do it."""
+    """Switch the lamp off *in ten minutes*: to wait, and then do it.
+
+    Raises:
+        Partly: "Walk two metres in four seconds" says how fast, which nobody can promise.
+    """
     amount = told_later(sentence.text, at)
     if amount is None or not last:
         return None
+    if isinstance(last[-1], GoTo) and last[-1].by is not None:
+        said = sentence.text.raw(at, amount.end)  # two metres in four seconds: how fast, or when?
+        raise Partly(f"I go at my own pace, and cannot promise “{said}”", tuple(sentence.before))
     return [Wait(duration_s=amount.value), *last], amount.end
 
 

@@ -49,7 +49,7 @@ def kept_out(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
         return None
     if not (end >= len(text) or text.word(end) in (COMMA, FULL_STOP)):
         return None
-    without = _narrowed(about, to_object(phrase, sentence.scope), phrase, sentence.scope)
+    without = narrowed(about, to_object(phrase, sentence.scope), phrase, sentence.scope)
     return [substitute(goal, about, without) for goal in last], end
 
 
@@ -74,7 +74,7 @@ def excluded(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     if about.name and other.name and about.name != other.name:
         sentence.notes.passed.append((at, end))
         return last, end  # all pens, but the markers no: no pen is a marker
-    without = _narrowed(about, other, phrase, scope)
+    without = narrowed(about, other, phrase, scope)
     if without.except_ is None:
         sentence.notes.passed.append((at, end))  # of two colours the other one comes back
     return [substitute(goal, about, without) for goal in last], end
@@ -90,7 +90,7 @@ def _is_of_all(goal: Goal) -> bool:
     return isinstance(goal, ForEach) or (query is not None and query.count == "all")
 
 
-def _narrowed(
+def narrowed(
     about: ObjectQuery, other: ObjectQuery, phrase: NounPhrase, scope: Scope
 ) -> ObjectQuery:
     """The description without the other thing; of two colours it is the second that is left."""

@@ -23,6 +23,7 @@ from intents.english.corrections import correction, switched_over
 from intents.english.ending_early import ended_early
 from intents.english.reading import Rules
 from intents.english.readings import (
+    arms_down,
     asides,
     beneficiaries,
     conditionals,
@@ -50,6 +51,8 @@ RULES = Rules(
         # Set wordings, matched from the first word of the clause to its last.
         questions.about_robot,
         questions.posture_noted,
+        # "Put your hands down" is to put nothing down, and "take your arm down" would raise it.
+        arms_down.arms_down,
         # Clauses that hold clauses: what they hold is read with the whole list again. A condition
         # stands before "when you see Ada, nod", where the one would look at her and the other
         # first has to find her.

@@ -9,6 +9,7 @@ from intents.english.corrections import correction, taken_back
 from intents.english.joining import as_wished, instead, joined, or_else, same_object
 from intents.english.phrases.complements import connector_end
 from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.picked_out import picked_out
 from intents.english.reading import Found, Sentence, clause, not_understood
 from intents.english.substitution import substitute
 from intents.english.trouble import (
@@ -60,7 +61,8 @@ def sequence(sentence: Sentence, at: int) -> Found:
             return goals, at
         begun, at = at, skip_openings(text, at)
         notes.passed.append((begun, at))
-        back = taken_back(here, begun, goals[last:] if begun else list(sentence.history))
+        recent = goals[last:] if begun else list(sentence.history)
+        back = picked_out(here, begun, recent) or taken_back(here, begun, recent)
         if back:
             notes.passed.append((clause_at, begun))
             goals[last:], at = back

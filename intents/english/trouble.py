@@ -14,7 +14,7 @@ Trouble
     └── Doubtful   a name that is not known is like one that is
 """
 
-from intents.goals import Goal
+from intents.goals import Goal, ObjectQuery
 
 
 class ReadingError(Exception):
@@ -57,8 +57,10 @@ class Unclear(ReadingError):
     Attributes:
         choices: What can be answered, if that is known.
         said: The words that a choice stands in place of.
+        about: What the answer is about, if it says "it".
     """
 
+    about: ObjectQuery | None = None
     weight = 2
     """A question that can be answered is worth more than a refusal."""
 

@@ -9,6 +9,7 @@ import msgspec
 
 from executive.engine.jobs import Job
 from executive.frontends.prompt.view import View
+from executive.frontends.since_boot import now_s
 from intents.vocabulary import Vocabulary
 from robot.errors import RobotError
 from robot.failures import Failure
@@ -53,14 +54,19 @@ class Told:
         self.out = self.said.append
         self.did: list[str] = []
         self.stops = self.refused = 0
+        self.stopped_s: list[float] = []
         self.asked: tuple[str, tuple[str, ...]] | None = None
         self.commands = {}
         self.dialogue = SimpleNamespace(vocabulary=Vocabulary())
         self.go_on = threading.Event()
         self.go_on.set()
 
+    def stops_by(self, begun_s):
+        return self.stops - sum(begun_s is not None and at_s > begun_s for at_s in self.stopped_s)
+
     def stop(self, why):
         self.stops += 1
+        self.stopped_s.append(now_s())
         self.did.append("stop")
         self.out("Stopping.")
 

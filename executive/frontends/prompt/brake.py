@@ -6,22 +6,31 @@ All of it may be called from any thread, and waits for nobody.
 from __future__ import annotations
 
 import threading
+from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from executive.blackboard import BODY
 from executive.engine.executive import JobError
+from executive.engine.jobs import Job
 from executive.frontends.prompt.answering import Answering
 from executive.frontends.prompt.halt import Halt
 from executive.frontends.prompt.robot import AtWork
 from executive.frontends.prompt.stance import standing
+from executive.frontends.since_boot import now_s
 from intents.dialogue import Dialogue
 from intents.parser import asks_to_stop
 from intents.stopping import is_stay, is_stop
 
 if TYPE_CHECKING:
     from intents.language_model import LanguageModel
+
+ESTOP_IS_ON = (
+    "The emergency stop is on, and nothing moves: `estop release`, then `estop reset`, undo it."
+)
+REMEMBERED = 1000
+"""Stops of which it is known when they were."""
 
 
 class Brake:
@@ -51,6 +60,7 @@ class Brake:
         self.halt = Halt(robot.executive)
         self._stops = 0
         self._left = False
+        self._stopped_s: deque[float] = deque(maxlen=REMEMBERED)
         self.stops_before: int | None = None
         self._robot = robot
         self._dialogue = dialogue
@@ -74,7 +84,7 @@ class Brake:
     def stop_unsaid(self, why: str) -> None:
         """Stop without a word; first the robot, then what only is in the way of hearing."""
         with self._lock:
-            self._stops += 1
+            self._note_stop()
             self._robot.executive.stop(why)
             self.halt.forget()
         self._ask_model_no_more()
@@ -86,7 +96,7 @@ class Brake:
         self._people.speech.hush()
         self._robot.executive.press_estop("the operator pressed the emergency stop")
         with self._lock:
-            self._stops += 1
+            self._note_stop()
 
     def halt_robot(self) -> None:
         """Come to a stand at once and keep the jobs, until it is known what is wanted."""
@@ -98,6 +108,12 @@ class Brake:
         """It was said what is to become of the jobs that were halted; it is asked no more."""
         if self.halt.on:
             self.halt.forget()
+            self._dialogue.unask()
+
+    def give_up(self, jobs: list[Job]) -> None:
+        """End jobs; where the robot has halted, what is left of it is asked about anew."""
+        self.halt.give_up(jobs, "cancelled on request")
+        if self.halt.on:
             self._dialogue.unask()
 
     def give_up_halted(self) -> None:
@@ -116,7 +132,7 @@ class Brake:
     def leave(self) -> None:
         """Let nothing begin any more, and bring the robot to a stand."""
         with self._lock:
-            self._stops += 1
+            self._note_stop()
             self._left = True
             if self._robot.busy:
                 self._robot.executive.stop("the operator leaves")
@@ -127,6 +143,19 @@ class Brake:
     def stops(self) -> int:
         """How often it was told to stop, signals included; a line from before comes to nothing."""
         return self._stops + self._robot.interrupts.pressed
+
+    def stops_by(self, begun_s: float | None) -> int:
+        """How often it had been told to stop by then, in seconds since boot (None: by now).
+
+        Signals come from the robot's own terminal, and end it; they are counted as before it.
+        """
+        later = 0 if begun_s is None else sum(at_s > begun_s for at_s in tuple(self._stopped_s))
+        return self.stops - later
+
+    def _note_stop(self) -> None:
+        """Count a stop, and when it was."""
+        self._stopped_s.append(now_s())
+        self._stops += 1
 
     def stopped_since(self, stops: int | None) -> bool:
         """Whether there was a stop since there had been so many (None: since now).

@@ -15,7 +15,7 @@ LOOK_S = 0.1
 CHUNK = 65536
 
 
-def work_off(shell: Spoken, lines: Iterable[str]) -> bool:
+def work_off(shell: Spoken, lines: Iterable[str], *, stops: int | None = None) -> bool:
     """Do every line; ends with the last, with `quit`, when the robot is gone, or is to stop.
 
     The end of the lines is nobody who leaves: what is open by then is done first.
@@ -23,9 +23,14 @@ def work_off(shell: Spoken, lines: Iterable[str]) -> bool:
     Ctrl-C, SIGTERM and SIGHUP are each a wish to leave, also after the robot has come to a stand
     for it. A stop that is none of the lines (on a page, in another terminal) is about all that
     follow. Returns whether no line that came was left undone for that.
+
+    Args:
+        shell: does them.
+        lines: as they come.
+        stops: so often the robot had been told to stop when they were begun (None: as now).
     """
     brake = shell.brake
-    stops = brake.stops
+    stops = brake.stops if stops is None else stops
     for line in lines:
         text = line.strip()
         if not text or text.startswith("#"):

@@ -11,7 +11,7 @@ from executive.engine.job_book import JobError
 from executive.engine.jobs import OVER, UNDER_WAY, Job, in_turn
 from executive.frontends.prompt import foresight
 from executive.frontends.prompt.answering import Answering
-from executive.frontends.prompt.brake import Brake
+from executive.frontends.prompt.brake import ESTOP_IS_ON, Brake
 from executive.frontends.prompt.robot import AtWork
 from executive.meaning.request import Understood
 from executive.trees.parts import errands
@@ -41,6 +41,9 @@ class Queueing:
     def submit(self, understood: Understood, *, urgent: bool = False, **how: Any) -> None:
         """Queue a task (`how`: as for `Robot.submit`), and say where it stands."""
         executive, halt = self._robot.executive, self._brake.halt
+        if executive.estop.latched:
+            self._people.refuse(f"Not done: {ESTOP_IS_ON}")
+            return
         halted = halt.on
         comes_first = urgent or (halted and "first" in understood.text.casefold().split())
         place = self._make_room(comes_first=comes_first)

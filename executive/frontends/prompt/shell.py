@@ -15,11 +15,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from executive.behaviours.ask import ANSWERS, Answer, answer_of
+from executive.engine.jobs import Job
 from executive.frontends.prompt.answering import Answering, Out
 from executive.frontends.prompt.brake import Brake
 from executive.frontends.prompt.command import Command
 from executive.frontends.prompt.mistyped import meant as meant_command
 from executive.frontends.prompt.mistyped import polite
+from executive.frontends.prompt.naming_jobs import NamingJobs
 from executive.frontends.prompt.queueing import Queueing
 from executive.frontends.prompt.robot import AtWork
 from executive.frontends.prompt.understanding import Understanding
@@ -29,6 +31,7 @@ from executive.meaning.request import Understood
 from intents.context import Context, verdict_of
 from intents.correcting import is_correction
 from intents.dialogue import Dialogue
+from intents.goals import Goal
 from intents.halting import besides, is_halt
 from intents.letters import bare, seen, without_sequences
 from intents.outcomes import Question, Refusal
@@ -90,6 +93,9 @@ class Shell(Answering):
             model=model,
         )
         self._slip = "", 0
+        self._naming = NamingJobs(
+            robot, brake=self.brake, queue=self.queue, people=self, read=self.dialogue.vocabulary
+        )
         self.commands: dict[str, Command] = {one.name: one for one in table(self)}
 
     def stop_at_once(self, text: str) -> bool:
@@ -130,6 +136,10 @@ class Shell(Answering):
     def stops(self) -> int:
         """How often the robot was told to stop; a line from before comes to nothing."""
         return self.brake.stops
+
+    def stops_by(self, begun_s: float | None) -> int:
+        """How often it had been told to stop by then, in seconds since boot (None: by now)."""
+        return self.brake.stops_by(begun_s)
 
     def stop(self, why: str) -> None:
         """Bring the robot to a stand and end all jobs; from any thread."""
@@ -231,7 +241,7 @@ class Shell(Answering):
         with self._turn(stops):
             if self.halt_at_once(text, spoken=True):
                 self._take_halted(text)
-            else:
+            elif not self._names_jobs(text):
                 self.sentence(text)
 
     @contextmanager
@@ -286,6 +296,8 @@ class Shell(Answering):
             command.run(rest)
         elif command is not None and command.accepts("") and polite(rest):
             command.run("")
+        elif self._names_jobs(text):
+            pass
         elif not (self.asks and not rest) and (slip := meant_command(text, self.commands)):
             self._slip = slip, self.brake.stops
             self.refuse(f"Did you mean `{slip}`?")
@@ -295,6 +307,19 @@ class Shell(Answering):
             self.refuse(f"Not done: {command.misfit(rest)}", f"Use: {command.usage}")
         else:
             self.sentence(text)
+
+    def _names_jobs(self, text: str) -> bool:
+        """Whether a line is about jobs by what they are called, and was done."""
+        if self.dialogue.is_answered_by(text):
+            return False
+        return self._naming.take(text, self._replace_job)
+
+    def _replace_job(self, job: Job, goals: tuple[Goal, ...]) -> None:
+        """Put other goals in the place of a job."""
+        understood = self._understanding.means(goals)
+        if understood is not None:
+            self.queue.corrects, self.queue.corrected = True, job.number
+            self.submit(understood)
 
     def _is_no_sentence(self, text: str) -> bool:
         """Whether two words that begin as a command mean nothing else: "run nope", "help foo"."""
@@ -314,6 +339,8 @@ class Shell(Answering):
             self.out(self.brake.standing())
             return
         self._tell_of_halt()
+        if self._names_jobs(text):
+            return
         state = self._understanding.state()
         self._understanding.turn_to_order(text, state)
         said = self.dialogue.besides(text, state) or self._besides_of_halted(text, state)

@@ -148,6 +148,10 @@ class Understanding:
             people.answer(f"I would {in_words(turn.goals)} at once.")
         return None
 
+    def means(self, goals: tuple[Goal, ...]) -> Understood | None:
+        """What goals mean here that nobody says in words; None when it is said why nothing."""
+        return self._settle(in_words(goals), Goals(goals=goals), self.state())
+
     def _settle(self, text: str, turn: Goals, state: RobotState) -> Understood | None:
         """What the goals mean here."""
         self._queue.corrects = turn.instead

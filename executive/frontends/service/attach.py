@@ -28,6 +28,7 @@ from executive.frontends.service.client import AGAIN_S, ANSWER_S, Connection, Cu
 from executive.frontends.service.place import Place
 from executive.frontends.service.pulse import Pulse
 from executive.frontends.service.remote_brake import RemoteBrake
+from executive.frontends.since_boot import process_began_s
 from executive.health import Level
 from intents.halting import is_halt
 from intents.letters import bare, without_sequences
@@ -61,7 +62,7 @@ def attach(place: Place) -> int:
                 Terminal(shell, history=history_at_home()).run()
                 if not shell.gone:
                     say(f"{place.name} goes on: humanoid attach comes back to it.")
-            elif not work_off(shell, lines_until(sys.stdin, shell.is_over)):
+            elif not work_off(shell, lines_until(sys.stdin, shell.is_over), stops=0):
                 shell.status = max(shell.status, ExitStatus.FAILED)
         finally:
             shell.close()
@@ -169,7 +170,8 @@ class RemoteShell:
                 self.out("Nobody listens just now; stops are kept for who comes next.")
 
         connection = Connection(self.place, meanwhile=meanwhile)
-        connection.send(m.Watch(views=not self._waits, recent=not again))
+        begun_s = process_began_s()
+        connection.send(m.Watch(views=not self._waits, recent=not again, begun_s=begun_s))
         if again:
             self.out(f"{self.place.name} listens again; something may have been left out.")
         with self._lock:
@@ -252,7 +254,7 @@ class RemoteShell:
             case views.Hello():
                 self.hello = told
                 self.dialogue = Names(told.vocabulary)
-                self.brake.greet(told.stops, told.pid)
+                self.brake.greet(told.stops, told.pid, begun=told.stops_begun)
                 self._ready.set()
             case views.Seen(view=view, busy=busy):
                 self.robot.view, self.robot.busy = view, busy

@@ -20,6 +20,7 @@ from executive.frontends.service.client import (
     press,
 )
 from executive.frontends.service.place import Place
+from executive.frontends.since_boot import process_began_s
 from intents.stopping import is_stop
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
@@ -113,7 +114,7 @@ def say_line(name: str | None, text: str, *, wait: bool, as_json: bool) -> int:
 def _said(
     place: Place, text: str, *, wait: bool, jobs: list[int], hear: Callable[[m.Told], None]
 ) -> int:
-    request: m.Request = m.Say(text=text, wait=wait)
+    request: m.Request = m.Say(text=text, wait=wait, begun_s=process_began_s())
     cried = is_stop(text)
     meanwhile = leave_stop if cried else leave_it
     until_s = time.monotonic() + TAKE_OVER_S

@@ -278,7 +278,7 @@ class Counter(Closing):
     def _take(self, client: Client, asked: m.Say) -> None:
         """A line: a stop and a halt act here, whatever else is being worked off."""
         shell = self._shell
-        stops = shell.stops if asked.stops is None else asked.stops
+        stops = shell.stops_by(asked.begun_s) if asked.stops is None else asked.stops
         told = f"(shell) > {printable_line(asked.text)}"
         self._out(told)
         self._log.append(told)
@@ -320,7 +320,8 @@ class Counter(Closing):
             with self._lock:
                 self._open_lines -= 1
         if shell.refused > refused or (shell.asked and shell.asked != open_before and not jobs):
-            status = max(status, ExitStatus.INVALID)
+            stopped = shell.stops != stops
+            status = max(status, ExitStatus.FAILED if stopped else ExitStatus.INVALID)
         if jobs:
             client.send(m.line_of(m.Queued(number=asked.number, jobs=tuple(jobs))))
         if jobs and asked.wait and not status:
@@ -349,7 +350,7 @@ class Counter(Closing):
         hello = views.Hello(
             number=asked.number, pid=os.getpid(), run=self._running.run, robot=self._running.robot,
             world=self._running.world, vocabulary=shell.dialogue.vocabulary, commands=rows,
-            stops=shell.stops,
+            stops=shell.stops, stops_begun=shell.stops_by(asked.begun_s),
         )  # fmt: skip
         client.send(m.line_of(hello))
         for text in tuple(self._recent) if asked.views and asked.recent else ():

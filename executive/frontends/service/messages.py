@@ -57,11 +57,13 @@ class Say(_Request, frozen=True, kw_only=True, tag="say"):
         wait: it ends when all that comes of it is over.
         stops: so often the robot had been told to stop, as far as was known where the line was
             typed; a stop since then is about this line too (None: as when it arrives).
+        begun_s: when it was asked for, in seconds since boot, where how often is not known.
     """
 
     text: Text
     wait: bool = False
     stops: int | None = None
+    begun_s: float | None = None
 
 
 class Halt(_Request, frozen=True, kw_only=True, tag="halt"):
@@ -82,10 +84,13 @@ class Watch(_Request, frozen=True, kw_only=True, tag="watch"):
     Attributes:
         views: and how the robot is.
         recent: and, first, what was said before.
+        begun_s: when whoever watches began, in seconds since boot: a stop since then is about
+            what was handed to them.
     """
 
     views: bool = False
     recent: bool = True
+    begun_s: float | None = None
 
 
 class Down(_Request, frozen=True, kw_only=True, tag="down"):

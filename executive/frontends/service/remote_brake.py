@@ -79,13 +79,20 @@ class RemoteBrake:
         """How often its executive has been told to stop, as far as that is known here."""
         return self._told
 
-    def greet(self, stops: int, pid: int) -> None:
-        """An executive says how often it was told to stop; another one counts anew."""
+    def greet(self, stops: int, pid: int, *, begun: int | None = None) -> None:
+        """An executive says how often it was told to stop; another one counts anew.
+
+        Args:
+            stops: by now.
+            pid: of the executive.
+            begun: when this prompt began, so that what was piped to it ends with a stop that came
+                while it was loaded (None: as by now).
+        """
         with self._lock:
             if self._pid not in (0, pid):
                 self._told = self._heard = 0
             elif not self._pid:
-                self._told = stops
+                self._told = self._heard = stops if begun is None else begun
             self._pid = pid
         self.hear(stops)
 

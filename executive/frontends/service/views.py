@@ -30,7 +30,13 @@ class Row(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Hello(AnyTold, frozen=True, kw_only=True, tag="hello"):
-    """What a prompt has to know before the first line; `pid` is of the executive."""
+    """What a prompt has to know before the first line.
+
+    Attributes:
+        pid: of the executive.
+        stops: so often it was told to stop.
+        stops_begun: so often it had been when the prompt began.
+    """
 
     pid: int
     run: str
@@ -39,6 +45,7 @@ class Hello(AnyTold, frozen=True, kw_only=True, tag="hello"):
     vocabulary: Vocabulary
     commands: tuple[Row, ...]
     stops: int
+    stops_begun: int
 
 
 _tellings = msgspec.json.Decoder(Told | Seen | Hello)

@@ -14,6 +14,7 @@ from intents.english.phrases.complements import connector_end, ends_clause
 from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_object, to_person, to_place
+from intents.english.phrases.times import ARRIVED
 from intents.english.reading import Found
 from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
 from intents.english.words import lexicon
@@ -41,6 +42,8 @@ def content_end(text: Text, at: int) -> int:
         aside = text.word(end) in ("she", "he", "they") and text.word(end + 1) in ("is", "are")
         if aside and end > at + 1 and text.word(end - 1) not in lexicon.WH:
             return end - (text.word(end - 1) == COMMA)
+        if at < end <= at + 2 and text.phrase_end(ARRIVED, end):
+            return end  # say hello when you get to the counter: no words of a greeting
         after = connector_end(text, end) if text.word(end) != COMMA else end + 1
         if after and text.word(end) == COMMA:
             after = connector_end(text, after) or after

@@ -255,10 +255,22 @@ def _there(slots: Slots) -> str | None:
     there = next(
         (c for c in slots.rest if c.phrases and c.phrase.noun == "there" and c.role != "from"), None
     )
-    if there is None or slots.scope.place is None:
-        return None
-    slots.rest.remove(there)
-    return slots.scope.place
+    attached = any(
+        locative.of.noun == "there"
+        for c in slots.rest if c.phrases and c.role == "" for locative in c.phrase.places
+    )  # fmt: skip
+    pointed = _points_over_there(slots.clause)
+    if slots.scope.place is None and (there is not None or attached or pointed):
+        raise Unclear("Where is that?")  # pointed at: to who speaks it would be "here"
+    if there is not None:
+        slots.rest.remove(there)
+    return slots.scope.place if there is not None or pointed else None
+
+
+def _points_over_there(clause: Clause) -> bool:
+    """Bring it *over there*, which no complement carries."""
+    words = clause.text.words
+    return any(words[at : at + 2] == ["over", "there"] for at in range(clause.first, clause.end))
 
 
 def _bare_spot(slots: Slots) -> str | None:

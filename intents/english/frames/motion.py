@@ -225,9 +225,14 @@ def _step(direction: str, distance: float | None, *, vague: bool) -> GoTo:
 def leave(clause: Clause, scope: Scope) -> list[Goal]:
     """Leave the apartment: go to the exit."""
     slots = Slots(clause, scope)
+    words = clause.text.words[clause.first :]
+    if clause.verb == "leave" and "out" in words and "of" not in words:
+        raise Misfit("I cannot tell what is to be left out: name what was asked for")
     target = slots.take("", "from", "through")
     exit_to = slots.take("to")
     slots.done()
+    if target and target.phrase.noun == "operator" and {"alone", "be"} & set(words):
+        raise NotUnderstood("All right, I leave you alone")
     if target and target.phrase.noun == "pronoun":
         raise Misfit("that is to put something down")
     if exit_to:

@@ -6,11 +6,13 @@ from intents.english.phrases.complements import Clause
 from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood
+from intents.english.words.measures import STEP_M
 from intents.english.words.verbs import base_form
 from intents.goals import (
     OPERATOR,
     Balance,
     BalanceMode,
+    Displacement,
     Find,
     Gesture,
     Goal,
@@ -60,6 +62,9 @@ def stand(clause: Clause, scope: Scope) -> list[Goal]:
             must_be_beside(place.phrase, clause, scope)
             pause: list[Goal] = [Wait(duration_s=duration)] if duration is not None else []
             return [GoTo(place=to_place(place.phrase, scope)), *pause]
+        if slots.direction("backward"):  # stand back: to make room
+            slots.done()
+            return [GoTo(by=Displacement(forward_m=-STEP_M))]
         return _balance(slots, "stand")
     if limb.said not in _LEGS:
         raise NotUnderstood(f"I can stand on one leg or on both, not on my {limb.said}")
@@ -68,19 +73,31 @@ def stand(clause: Clause, scope: Scope) -> list[Goal]:
 
 
 def lift_leg(clause: Clause, scope: Scope) -> list[Goal]:
-    """Lift your left foot: stand on the right leg."""
+    """Lift your left foot: stand on the right leg; put it down: on both."""
     slots = Slots(clause, scope)
     limb = _limb(slots, "")
     if limb is None:
         return _head(slots)
-    slots.direction("up")
+    down = slots.direction("up", "down") == "down" or clause.verb.startswith("lower")
     slots.rest = [c for c in slots.rest if not (c.phrases and c.phrase.said in _FLOOR)]
+    if limb.said in _LEGS and down:
+        return _balance(slots, "stand")
     if limb.said in _LEGS:
         return _balance(slots, "one_leg", _OTHER.get(limb.side))
     if limb.said.rstrip("s") in ("arm", "hand"):
         slots.done()
+        if down:
+            both = limb.count in (2, "all") or (limb.said.endswith("s") and not limb.side)
+            return [Gesture(kind=lowering(limb.side, several=both))]
         return [Gesture(kind="_".join(w for w in ("raise", limb.side, "arm") if w))]
-    raise NotUnderstood(f"I cannot raise my {limb.said}")
+    raise NotUnderstood(f"I cannot {'lower' if down else 'raise'} my {limb.said}")
+
+
+def lowering(side: str | None, *, several: bool) -> str:
+    """The sign that brings an arm down, or both."""
+    if side and side.strip() in _OTHER:
+        return f"lower_{side.strip()}_arm"
+    return "lower_both_arms" if several else "lower_arm"
 
 
 def _head(slots: Slots) -> list[Goal]:

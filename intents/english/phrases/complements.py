@@ -195,6 +195,8 @@ def connector_end(text: Text, at: int) -> int | None:
     end = text.phrase_end(CONNECTORS, at)
     if end and text.words[at:end] == ["next"] and text.word(end) == "to":
         return None
+    if end and text.word(end - 1) == "arrive" and text.word(end) in ("at", "in", "by", "on"):
+        return None  # when you arrive at the counter: that says where to go
     return None if end and text.name_at(at) else end
 
 

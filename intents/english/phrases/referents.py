@@ -34,7 +34,7 @@ from intents.goals import (
 ME = Person(who="operator")
 _OBJECTS = ("object", "category")
 _SPOTS = ("place", "room")
-_INDEFINITE = ("a", "an", "any", "another")
+_INDEFINITE = ("a", "an", "any", "another", "either")
 
 
 @dataclass(slots=True)

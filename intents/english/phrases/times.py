@@ -8,6 +8,15 @@ from intents.english.words.verbs import base_form, verbs_at
 
 _TIMES = lexicon.words("dinner lunch breakfast supper tea noon midnight bedtime tonight tomorrow")
 _SUBJECTS = lexicon.words("i we he she they")
+ARRIVED = lexicon.phrases(
+    "when you are,once you are,when you get to,once you get to,when you reach,once you reach,"
+    "as soon as you are,as soon as you reach,as soon as you get to,when you arrive,once you arrive,"
+    "when you have reached,once you have reached,when you come to,when you enter,once you enter,"
+    "after you get to,after you reach,as soon as you arrive,after you arrive,as soon as you enter,"
+    "on reaching,upon reaching,on arriving,upon arriving,on arrival,upon arrival,"
+    "as soon as you come to"
+)
+"""What a place stands behind that is to be gone to first."""
 
 
 def tells_when(text: Text, at: int) -> bool:

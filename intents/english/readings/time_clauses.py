@@ -5,6 +5,7 @@ from intents.english.clauses.saying import content_end
 from intents.english.clauses.verb_clauses import framed, read_verb
 from intents.english.phrases.complements import Complement, ends_clause, read_complements
 from intents.english.phrases.referents import to_place
+from intents.english.phrases.times import ARRIVED
 from intents.english.reading import Found, Sentence, clause_by_itself
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
@@ -16,12 +17,6 @@ _TOLD = lexicon.phrases(
     "until i,until we,until further notice,until you are told,until told,until you hear,"
     "until my signal,until my command,until my word,until someone tells you,"
     "until somebody tells you"
-)
-_ARRIVED = lexicon.phrases(
-    "when you are,once you are,when you get to,once you get to,when you reach,once you reach,"
-    "as soon as you are,as soon as you reach,as soon as you get to,when you arrive,once you arrive,"
-    "when you have reached,once you have reached,when you come to,when you enter,once you enter,"
-    "after you get to,after you reach"
 )
 _GIVE_IT = lexicon.phrases("give it,take,give me")
 _NOT = lexicon.phrases("do not,do not you,never,you do not,you must not,must not")
@@ -77,7 +72,7 @@ def until_told(sentence: Sentence, at: int) -> Found | None:
 def arrived(sentence: Sentence, at: int) -> Found | None:
     """*When you are in the lab*, look for the pencil: first go there."""
     text = sentence.text
-    start = text.phrase_end(_ARRIVED, at)
+    start = text.phrase_end(ARRIVED, at)
     if start is None:
         return None
     complements, end = read_complements(text, start)

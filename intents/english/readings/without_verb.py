@@ -5,6 +5,7 @@ from intents.english.clauses.verb_clauses import framed
 from intents.english.frames.devices import is_device
 from intents.english.phrases.complements import read_complements
 from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.referents import to_object
 from intents.english.reading import Found, Sentence
 from intents.english.trouble import Misfit, Unclear
 from intents.english.words.lexer import COMMA, FULL_STOP
@@ -103,6 +104,8 @@ def only_named(sentence: Sentence, at: int) -> None:
     if phrase is None or phrase.end < len(text) or phrase.noun != "name":
         return
     if phrase.name("object", "category") and at == 0:
-        raise Unclear(f"What shall I do with “{text.raw(at, phrase.end)}”?")
+        unclear = Unclear(f"What shall I do with “{text.raw(at, phrase.end)}”?")
+        unclear.about = to_object(phrase, sentence.scope)
+        raise unclear
     if phrase.is_person:
         raise Misfit("what about them?")

@@ -39,7 +39,9 @@ def _meanings(table: dict[T, str]) -> dict[Phrase, T]:
     return {phrase: meaning for meaning, text in table.items() for phrase in phrases(text)}
 
 
-DETERMINERS = words("the a an my your our his her their its this that these those some any another")
+DETERMINERS = words(
+    "the a an my your our his her their its this that these those some any another either"
+)
 ALL = words("all every each both")
 
 COLORS = {

@@ -5,16 +5,13 @@ from __future__ import annotations
 from executive.behaviours.breakpoints import fits
 from executive.engine.job_book import JobError
 from executive.engine.jobs import OVER
+from executive.frontends.prompt.brake import ESTOP_IS_ON
 from executive.frontends.prompt.command import Command, anything, begins, one_of
 from executive.frontends.prompt.commands.job_words import is_number, number_of, row
 from executive.frontends.prompt.shell import Shell
 from executive.missions import fault_plans
 from robot.errors import ConfigError
 from robot.misfits import listed, shown
-
-ESTOP_IS_ON = (
-    "The emergency stop is on, and nothing moves: `estop release`, then `estop reset`, undo it."
-)
 
 
 def commands(shell: Shell) -> tuple[Command, ...]:

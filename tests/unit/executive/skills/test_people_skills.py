@@ -161,6 +161,33 @@ def test_the_hand_that_is_named_waves(stage):
         GestureParams(kind="bow", side="left")
 
 
+@pytest.mark.parametrize(
+    ("kind", "sides"),
+    [
+        ("lower_left_arm", {"left"}),
+        ("lower_right_arm", {"right"}),
+        ("lower_arm", {"left", "right"}),
+        ("lower_both_arms", {"left", "right"}),
+    ],
+)
+def test_an_arm_that_is_lowered_comes_home_and_goes_nowhere_else(stage, kind, sides):
+    puppet, nominal = stage.puppet, stage.puppet.description.posture("nominal")
+    up = puppet.description.posture(puppet.description.signs.raised)
+    for side in ("left", "right"):
+        for i in puppet.description.indices(f"{side}_arm"):
+            puppet.q_rad[i] = up[i]
+    assert stage.run(GestureParams(kind=kind)).status == "succeeded"
+    assert {command.side for command in stage.commands(MoveArm)} == sides
+    for side in sides:
+        for i in puppet.description.indices(f"{side}_arm"):
+            assert puppet.q_rad[i] == pytest.approx(nominal[i])
+
+
+def test_arms_that_are_down_stay_as_they_are(stage):
+    assert stage.run(GestureParams(kind="lower_both_arms")).status == "succeeded"
+    assert not stage.commands(MoveArm)
+
+
 def test_a_full_hand_does_not_wave(carrying):
     report = carrying.run(GestureParams(kind="raise_right_arm"))
     assert report.failure.code == "hands_full"

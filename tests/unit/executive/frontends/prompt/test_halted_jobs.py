@@ -8,6 +8,7 @@ import pytest
 
 from executive.engine.jobs import OVER
 from executive.frontends.prompt.shell import Shell
+from executive.frontends.since_boot import now_s
 from tests.fakes.puppet_shell import puppet_shell
 from tests.fakes.waiting import eventually
 
@@ -239,3 +240,13 @@ def test_what_is_remarked_on_is_told_once(shell: Shell):
     shell.line("nod quickly")
     assert said[0] == "  I move at my own pace: “quickly” changes nothing."
     assert sum("I move at my own pace" in one for one in said) == 1
+
+
+def test_it_is_known_how_often_there_had_been_a_stop_at_any_time(shell: Shell):
+    first_s = now_s()
+    shell.stop("one")
+    second_s = now_s()
+    shell.brake.press()
+    assert [shell.stops_by(at_s) for at_s in (first_s, second_s, now_s(), None)] == [0, 1, 2, 2]
+    shell.line("walk to the shelf", stops=shell.stops_by(second_s))
+    assert not open_jobs(shell)

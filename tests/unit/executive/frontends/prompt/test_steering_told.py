@@ -52,3 +52,13 @@ def test_a_pause_under_the_emergency_stop_is_told_with_it_and_after_it(shell: Sh
     shell.line("estop release")
     shell.line("estop reset")
     assert said[-1] == "The robot may move again."
+
+
+def test_nothing_is_queued_under_the_emergency_stop(shell: Shell) -> None:
+    shell.line("pause")
+    shell.line("estop")
+    refused = shell.refused
+    shell.line("wave")
+    assert said[-1].startswith("Not done: The emergency stop is on")
+    assert shell.refused == refused + 1
+    assert not shell.robot.busy

@@ -211,6 +211,15 @@ def test_lines_from_a_pipe_are_dropped_after_a_stop_from_elsewhere_and_not_after
     assert "“bow”" in shell.said[-1] or "“nod”" in shell.said[-1]
 
 
+def test_lines_from_a_pipe_are_dropped_by_a_stop_that_came_while_it_was_loaded():
+    with robot() as (told, place, _):
+        press(place, "stop", lambda _: None)  # after this process began
+        with attached(place, waits=True) as shell:
+            assert not work_off(shell, ["walk", "wave"], stops=0)
+    assert told.did == ["stop"]
+    assert shell.said[-1].startswith("Not done: “walk”")
+
+
 def test_a_stop_during_a_line_drops_what_follows():
     with robot() as (told, place, _):
         done: list[bool] = []

@@ -18,6 +18,7 @@ from executive.frontends.service import views
 from executive.frontends.service.client import Connection, Cut
 from executive.frontends.service.counter import Counter
 from executive.frontends.service.place import Running, claimed
+from executive.frontends.since_boot import now_s
 from robot.errors import RobotError
 from robot.exit_status import ExitStatus
 from robot.failures import Failure
@@ -292,3 +293,35 @@ def test_the_counter_of_an_executive_that_died_is_taken_over(counter, told, plac
     assert (told.did, other.did) == (["status"], ["stop"])
     with pytest.raises((Cut, RobotError)):
         Connection(place, patience_s=0.05)
+
+
+def test_a_stop_is_about_what_was_asked_for_before_it_and_arrived_after_it(counter, told, place):
+    before_s = now_s()
+    ask(place, m.Press(button="stop"))
+    after_s = now_s()
+    ask(place, m.Say(text="turn", begun_s=before_s))  # by a process that was still loaded then
+    ask(place, m.Say(text="wave", begun_s=after_s))
+    ask(place, m.Say(text="bow"))
+    assert told.did == ["stop", "turn (0)", "wave (1)", "bow (1)"]
+
+
+def test_what_a_stop_has_dropped_has_failed_and_was_understood(counter, told, place):
+    def dropped(text, *, stops):
+        told.refused += 1
+
+    told.line = dropped
+    before_s = now_s()
+    ask(place, m.Press(button="stop"))
+    ended, _ = ask(place, m.Say(text="turn", begun_s=before_s))
+    assert ended.status == ExitStatus.FAILED
+
+
+def test_a_prompt_is_told_of_stops_while_it_was_loaded(counter, told, place):
+    before_s = now_s()
+    ask(place, m.Press(button="stop"))
+    with Connection(place) as connection:
+        connection.send(m.Watch(views=True, begun_s=before_s))
+        hello = next(iter(connection.lines(wait_s=HANG_S)))
+    known = views.told(hello)
+    assert isinstance(known, views.Hello)
+    assert (known.stops, known.stops_begun) == (1, 0)
