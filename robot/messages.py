@@ -23,6 +23,8 @@ Channel = Literal["legs", "waist", "head", "left_arm", "right_arm", "left_hand",
 Source = Literal["oracle", "emulated", "sensor", "estimate"]
 EyesBy = Literal["oracle", "camera"]
 """Who tells where the things are: the simulator, or what the robot sees in its own pictures."""
+LocalisedBy = Literal["oracle", "lidar"]
+"""Who tells where the robot is: the simulator, or its own lidar and legs in its own map."""
 SAMPLE_M = 0.25
 """How far apart the points of a surface are by which it is said what of it was seen [m]."""
 
@@ -381,10 +383,14 @@ class PowerState(Message, frozen=True, kw_only=True):
 
 
 class PoseFix(Message, frozen=True, kw_only=True):
-    """Where the base is in the world, absolutely, at the stamp."""
+    """Where the base is in the world, absolutely, at the stamp.
+
+    `covariance`, row by row, is of the errors of x, y [m] and heading [rad]; () if it is unknown.
+    """
 
     X_WB: SE3
     source: Source
+    covariance: tuple[float, ...] = ()
 
 
 class Sighting(msgspec.Struct, frozen=True, kw_only=True):
@@ -614,6 +620,8 @@ class WorldState(Message, frozen=True, kw_only=True):
     of X_WN had to be thrown over. `unmapped` is what the sensors see and the map does not explain.
     `people` are tracked like objects; one not seen yet (`seen_s` -inf) is where the map says.
     `looked` is what of the surfaces has been in view, near enough and with nothing before it.
+    `covariance`, row by row, is of the errors of the base's x, y [m] and heading [rad], () where it
+    is unknown; `lost` says why the robot does not know where it is, "" while it does.
     """
 
     X_WN: SE3
@@ -625,3 +633,5 @@ class WorldState(Message, frozen=True, kw_only=True):
     looked: tuple[Looked, ...] = ()
     jumps: int = 0
     source: Source = "oracle"
+    covariance: tuple[float, ...] = ()
+    lost: str = ""
