@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 import mujoco
 import numpy as np
@@ -34,8 +34,10 @@ from robot.model.body import BodyModel
 from robot.perception.album import Album
 from robot.perception.eye import Eye
 from robot.perception.gaze import Gaze, Take
-from robot.perception.own_place import OwnPlace
 from robot.se3 import SE3
+
+if TYPE_CHECKING:
+    from robot.perception.own_place import OwnPlace
 
 PERIOD_S = 0.1
 PATIENCE_S = 0.3
@@ -99,8 +101,7 @@ class PerceptionNode(Closing):
         self._lidar = self._body.site_id(sensors.lidar.site)
         self._history = BodyHistory()
         self._localiser = Localiser(self._history)
-        by_lidar = localisation == "lidar"
-        self._own = OwnPlace(lidar_map, self._history) if by_lidar else None
+        self._own = _own_place(lidar_map, self._history) if localisation == "lidar" else None
         self._world = WorldModel(camera_range_m=sensors.camera.range_m)
         self._looked = LookedOver()
         radius_m = description.body_radius_m
@@ -299,3 +300,9 @@ class PerceptionNode(Closing):
                 lost="" if self._own is None else self._own.lost,
             ),
         )
+
+
+def _own_place(lidar_map: Path | None, history: BodyHistory) -> OwnPlace:
+    from robot.perception.own_place import OwnPlace  # scipy, which takes a while to load
+
+    return OwnPlace(lidar_map, history)

@@ -16,7 +16,6 @@ import msgspec
 
 from executive.meaning.request import Setting
 from robot.errors import ConfigError, Problem
-from robot.fusion.slam import map_file
 from robot.ordinary_files import make_below
 from robot.printable import printable
 from robot.user_state import user_cache_folder
@@ -65,6 +64,7 @@ def needed(where: Setting, *, tell: Tell = tell_on_screen) -> Path | None:
     path = folder / "maps" / name
     if not path.is_file():
         from executive.runs.lidar_maps import led_walk  # a whole simulation
+        from robot.fusion.slam import map_file  # scipy, which no other run needs
 
         tell(f"no map of {where.world.name} yet: leading the robot through it first (once)")
         saved = led_walk.survey(where, tell=tell)
