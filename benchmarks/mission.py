@@ -100,16 +100,16 @@ def do(*, seed: int, live: bool = False) -> dict[str, Any]:
             body = runtime.link.body()
             standing = body is not None and body.mode == "stand"
             return {**known, "ok": summary.status == "done" and standing, "standing": standing}
-        return {**known, **_judge(runtime, summary, witness.X_WO, cup.replace(" ", "_"))}
+        return {**known, **judged(runtime, summary, witness.X_WO, cup.replace(" ", "_"))}
 
 
 def _carry_out(understood: request.Understood, setup: Setup, robot: Opened) -> Summary:
     with Session(setup, robot, time_of_day=time.time) as session:
         assignment = Assignment(understood=understood)
-        return task_run.do(assignment, session, show=_silent, wall=WallClock())
+        return task_run.do(assignment, session, show=silent, wall=WallClock())
 
 
-def _silent(_executive: Executive) -> Progress:
+def silent(_executive: Executive) -> Progress:
     return Silent()
 
 
@@ -128,7 +128,7 @@ def _report(summary: Summary, sentence: str, ready_s: float) -> dict[str, Any]:
     }
 
 
-def _judge(runtime: Any, summary: Summary, X_WO: SE3 | None, object_id: str) -> dict[str, Any]:
+def judged(runtime: Any, summary: Summary, X_WO: SE3 | None, object_id: str) -> dict[str, Any]:
     """What truly became of it: the cup against the spot it was meant for, the robot on its feet."""
     oracle = runtime.plant.oracle
     X_true, X_WB = oracle.X_WO(object_id), oracle.X_WB()

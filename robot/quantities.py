@@ -90,6 +90,7 @@ AngleNoise: TypeAlias = Annotated[float, _between(0.0, 1.0, "rad")]
 Place: TypeAlias = Annotated[float, _between(-100.0, 100.0, "m")]
 Size: TypeAlias = Annotated[float, _between(0.001, 100.0, "m")]
 Heading: TypeAlias = Annotated[float, _between(-36_000.0, 36_000.0, "degrees")]
+Sector: TypeAlias = Annotated[float, _between(0.0, 360.0, "degrees")]
 Height: TypeAlias = Annotated[float, _between(0.3, 2.6, "m")]
 Load: TypeAlias = Annotated[float, _between(0.001, 50.0, "kg")]
 

@@ -28,7 +28,7 @@ def main(run_file: str, parent_pid: str) -> None:
     config, clock, stop = run.load(run_file), WallClock(), Stop()
     world = (
         Simulation()
-        .under(config.reality, eyes=config.eyes)
+        .under(config.reality, eyes=config.eyes, localisation=config.localisation)
         .world(config.world, vary_seed=config.variation_seed)
     )
     plant = world.plant(description.load(config.robot), seed=config.seed)

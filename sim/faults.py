@@ -10,10 +10,12 @@ from robot.drivers.registry import SENSES
 from robot.errors import ConfigError
 from robot.model.description import RobotDescription
 from robot.reality.faults import (
+    CoverLidar,
     Delay,
     Discharge,
     Fault,
     Heat,
+    Kidnap,
     Kill,
     KnockOver,
     Load,
@@ -43,7 +45,7 @@ if TYPE_CHECKING:
 SENSORS: dict[str, tuple[str, ...]] = {
     "camera": ("sensors/depth", "oracle/sightings"),
     "lidar": ("sensors/lidar",),
-    "localisation": ("oracle/fix",),
+    "localisation": ("oracle/fix",),  # of a robot that is told where it is
 }
 """A sensor to the topics that fall silent with it."""
 SENT = [
@@ -94,14 +96,10 @@ def apply(plant: Plant, fault: Fault) -> None:
             _push(plant, fault)
         case Move() | Occupy() | StandInWay() | Remove():
             _put(plant, fault)
-        case Silence():
-            topics = SENSORS.get(fault.topic, (fault.topic,))
-            for topic in topics:
-                check_name(topic, [*plant.sending.topics(), *SENSORS], "topic")
-                plant.sending.silence(topic, plant.time_s + fault.duration_s)
-        case Mislead():
-            X = SE3.from_xy_yaw(*fault.by_m, math.radians(fault.by_deg))
-            plant.oracle.mislead(X, until_s=plant.time_s + fault.duration_s)
+        case Silence() | Mislead() | CoverLidar():
+            _deceive(plant, fault)
+        case Kidnap():
+            _kidnap(plant, fault)
         case OffsetImu() | Sill() | Slope() | Load() | Delay():
             _worsen(plant, fault)
         case Heat() | MotorOff():
@@ -118,6 +116,37 @@ def apply(plant: Plant, fault: Fault) -> None:
             plant.battery.charge = fault.charge
         case Kill():
             raise ConfigError(f"the {fault.process} is not the plant's; the runtime kills it")
+
+
+def _deceive(plant: Plant, fault: Silence | Mislead | CoverLidar) -> None:
+    match fault:
+        case Silence():
+            topics = SENSORS.get(fault.topic, (fault.topic,))
+            for topic in topics:
+                check_name(topic, [*plant.sending.topics(), *SENSORS], "topic")
+                plant.sending.silence(topic, plant.time_s + fault.duration_s)
+        case Mislead():
+            X = SE3.from_xy_yaw(*fault.by_m, math.radians(fault.by_deg))
+            plant.oracle.mislead(X, until_s=plant.time_s + fault.duration_s)
+        case CoverLidar():
+            lidar = plant.sending.lidar
+            lidar.cover(math.radians(fault.width_deg), math.radians(fault.towards_deg))
+            if math.isfinite(fault.duration_s):
+                plant.after(fault.duration_s, lambda: lidar.cover(0.0, 0.0))
+
+
+def _kidnap(plant: Plant, fault: Kidnap) -> None:
+    """Move and turn the whole body about the vertical: on a level floor nothing else changes."""
+    model, data = plant.model, plant.data
+    joint = int(model.body_jntadr[model.body(plant.robot.base_body).id])
+    at, moving = int(model.jnt_qposadr[joint]), int(model.jnt_dofadr[joint])
+    X_WB, turn_rad = plant.oracle.X_WB(), math.radians(fault.turn_deg)
+    by_x, by_y = fault.by_m or (0.0, 0.0)
+    x, y = fault.at_m or (X_WB.p[0] + by_x, X_WB.p[1] + by_y)
+    turn = SE3.from_xy_yaw(0.0, 0.0, turn_rad)
+    there = turn @ SE3((0.0, 0.0, 0.0), X_WB.quat_wxyz)
+    data.qpos[at : at + 7] = (x, y, X_WB.p[2], *there.quat_wxyz)
+    data.qvel[moving : moving + 3] = turn.rotation() @ data.qvel[moving : moving + 3]
 
 
 def _worsen(plant: Plant, fault: OffsetImu | Sill | Slope | Load | Delay) -> None:

@@ -26,7 +26,7 @@ def main(run_file: str, parent_pid: str) -> None:
     config, stop = run.load(run_file), Stop()
     world = (
         Simulation()
-        .under(config.reality, eyes=config.eyes)
+        .under(config.reality, eyes=config.eyes, localisation=config.localisation)
         .world(config.world, vary_seed=config.variation_seed)
     )
     robot = description.load(config.robot).driven_by(config.motors)

@@ -16,7 +16,7 @@ from robot.bus.topics import HEARD, Topic
 from robot.drivers.body_sample import BodySample
 from robot.drivers.motor_bus import MotorCommand
 from robot.errors import ConfigError, DriverError
-from robot.messages import EyesBy, Message, Place
+from robot.messages import EyesBy, LocalisedBy, Message, Place
 from robot.model.description import RobotDescription
 from robot.physics import GRAVITY_M_S2
 from robot.reality.faults import check_name
@@ -73,6 +73,7 @@ class Plant:
         physics_ms: int = PHYSICS_MS,
         reality: str = IDEAL,
         eyes: EyesBy = "oracle",
+        localisation: LocalisedBy = "oracle",
     ) -> None:
         """Build the scene and stand the robot on its soles at the world's start.
 
@@ -86,6 +87,7 @@ class Plant:
             physics_ms: time step of the physics; 2 is a third faster, 1 is finer.
             reality: how far it is from what is described (`sim.realities`).
             eyes: who tells the robot where the things are.
+            localisation: who tells the robot where it is.
 
         Raises:
             DescriptionError: if the robot's description and its MJCF disagree.
@@ -111,6 +113,7 @@ class Plant:
         self.sending = Sending(
             self.model, self.data, self.world, robot=robot, rng=seeds[2],
             pose_error_m=pose_error_m, battery=self.battery, eyes=eyes,
+            localisation=localisation,
         )  # fmt: skip
         self.people = People(self.model, self.data, self.world, robot=robot, rng=seeds[3])
         self._people_ms = NEVER

@@ -133,13 +133,20 @@ class PlanarLidar:
         self._rays = Rays(model, data, body=int(model.site_bodyid[model.site(lidar.site).id]))
         root = model.body(robot.base_body).id
         self._own: NDArray[np.bool_] = model.body_rootid[model.geom_bodyid] == root
+        self._angles = angles
+        self._covered = np.zeros(lidar.beams, dtype=bool)
+
+    def cover(self, width_rad: float, towards_rad: float) -> None:
+        """Let the beams of a sector about an angle come back empty; of no width: none of them."""
+        off = np.mod(self._angles - towards_rad + math.pi, 2.0 * math.pi) - math.pi
+        self._covered = np.abs(off) < 0.5 * width_rad + 1e-9 if width_rad else self._covered & False
 
     def scan(self, stamp_s: float) -> LidarScan:
         """One turn."""
         directions = self._beams @ self._site.xmat.reshape(3, 3).T
         ranges, geoms = self._rays.cast(self._site.xpos, directions, range_m=self._range_m)
         flaws = self.flaws
-        missed = (geoms < 0) | self._own[geoms] | (ranges < flaws.least_m)
+        missed = (geoms < 0) | self._own[geoms] | (ranges < flaws.least_m) | self._covered
         if flaws.dropouts:
             missed |= self._rng.random(len(ranges)) < flaws.dropouts
         ranges += flaws.noise_m * self._rng.standard_normal(len(ranges))

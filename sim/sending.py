@@ -13,8 +13,9 @@ import numpy as np
 from robot.bus import topics
 from robot.bus.topics import Topic
 from robot.drivers.simulation.plant_sensors import emulated
-from robot.messages import EyesBy, Message
+from robot.messages import EyesBy, LocalisedBy, Message
 from robot.model.description import RobotDescription
+from robot.se3 import SE3
 from sim.atlas import world_map
 from sim.battery import Battery
 from sim.oracle import Oracle
@@ -67,11 +68,13 @@ class Sending:
         pose_error_m: float,
         battery: Battery | None,
         eyes: EyesBy = "oracle",
+        localisation: LocalisedBy = "oracle",
     ) -> None:
         """Build every sensor; each draws its noise from its own child of `rng`.
 
         Where the robot's own eyes find the things (`eyes`), the oracle sights none of them, and the
-        map tells no more of them than their names do.
+        map tells no more of them than their names do. Where its own lidar finds the robot
+        (`localisation`), no fix is made, and the map does not tell where it began.
         """
         seeds = rng.spawn(3)
         self._model, self._data = model, data
@@ -83,6 +86,8 @@ class Sending:
         )  # fmt: skip
         prior = world_map(world) if eyes == "oracle" else world_map(world).told()
         self.relieved = False
+        if localisation != "oracle":
+            prior = msgspec.structs.replace(prior, start_X_WS=SE3())
         self._sources: list[_Source[Any]] = [
             _Source(topics.DEPTH, self.camera.capture),
             _Source(topics.LIDAR, self.lidar.scan),
@@ -94,6 +99,8 @@ class Sending:
         ]
         if battery is not None:
             self._sources.append(_Source(topics.POWER, battery.report))
+        untold = () if localisation == "oracle" else (topics.ORACLE_FIX.name,)
+        self._told = [source for source in self._sources if source.name not in untold]
 
     def spoil(self, lidar: Lidar, camera: Camera) -> None:
         """From now on they are as good as that."""
@@ -111,7 +118,7 @@ class Sending:
 
     def due(self, now_s: float) -> list[tuple[Topic[Any], Message]]:
         """The messages due by now, with the topics to send them on."""
-        ready = [source for source in self._sources if now_s >= source.due_s - 1e-9]
+        ready = [source for source in self._told if now_s >= source.due_s - 1e-9]
         if ready:  # positions are those of the last step until this brings them up to date
             mujoco.mj_kinematics(self._model, self._data)
         found: list[tuple[Topic[Any], Message]] = []

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from robot.messages import EyesBy
+from robot.messages import EyesBy, LocalisedBy
 from robot.model.description import RobotDescription
 from robot.reality.contract import Begin, Cast, EmulatedBuses, Home, ThingKind
 from robot.reality.faults import Fault
@@ -36,17 +36,27 @@ class Simulation:
     Attributes:
         profile: how far what is felt and done there is from what is described (`sim.realities`).
         eyes: who tells robots where the things are.
+        localisation: who tells robots where they are.
     """
 
-    def __init__(self, profile: str = realities.IDEAL, *, eyes: EyesBy = "oracle") -> None:
+    def __init__(
+        self,
+        profile: str = realities.IDEAL,
+        *,
+        eyes: EyesBy = "oracle",
+        localisation: LocalisedBy = "oracle",
+    ) -> None:
         """Raises ConfigError for a profile that is none."""
         realities.profile(profile)
         self.profile = profile
         self.eyes: EyesBy = eyes
+        self.localisation: LocalisedBy = localisation
 
-    def under(self, profile: str, *, eyes: EyesBy = "oracle") -> Simulation:
-        """The same with another profile and eyes. Raises ConfigError, with the nearest name."""
-        return Simulation(profile, eyes=eyes)
+    def under(
+        self, profile: str, *, eyes: EyesBy = "oracle", localisation: LocalisedBy = "oracle"
+    ) -> Simulation:
+        """The same under other conditions. Raises ConfigError, with the nearest name."""
+        return Simulation(profile, eyes=eyes, localisation=localisation)
 
     def names(self) -> list[str]:
         """Names of the shipped worlds."""
@@ -68,8 +78,9 @@ class Simulation:
         if vary_seed is not None:
             entries = placing.variation(entries, vary_seed)
         return SimulatedWorld(
-            entries, name=name_or_path, vary_seed=vary_seed, profile=self.profile, eyes=self.eyes
-        )
+            entries, name=name_or_path, vary_seed=vary_seed, profile=self.profile, eyes=self.eyes,
+            localisation=self.localisation,
+        )  # fmt: skip
 
     def home_kinds(self) -> list[str]:
         """Kinds of homes that can be made (sim/homes/kinds)."""
@@ -140,6 +151,7 @@ class SimulatedWorld:
         vary_seed: what it was shuffled by.
         profile: of the reality it is in.
         eyes: who tells robots in it where the things are.
+        localisation: who tells robots in it where they are.
         map: the prior map; where that is their own eyes, without sizes and masses of things.
     """
 
@@ -151,6 +163,7 @@ class SimulatedWorld:
         vary_seed: int | None = None,
         profile: str = realities.IDEAL,
         eyes: EyesBy = "oracle",
+        localisation: LocalisedBy = "oracle",
     ) -> None:
         """Make the map."""
         self.entries = entries
@@ -158,6 +171,7 @@ class SimulatedWorld:
         self.vary_seed = vary_seed
         self.profile = profile
         self.eyes: EyesBy = eyes
+        self.localisation: LocalisedBy = localisation
         known = atlas.world_map(entries)
         self.map = known if eyes == "oracle" else known.told()
 
@@ -180,8 +194,9 @@ class SimulatedWorld:
         """The same, begun a little otherwise."""
         entries = placing.nudged(self.entries, seed, start=start)
         return SimulatedWorld(
-            entries, name=self.name, vary_seed=self.vary_seed, profile=self.profile, eyes=self.eyes
-        )
+            entries, name=self.name, vary_seed=self.vary_seed, profile=self.profile,
+            eyes=self.eyes, localisation=self.localisation,
+        )  # fmt: skip
 
     def verify(self, fault: Fault, robot: RobotDescription) -> None:
         """Check every name in a fault. Raises ConfigError with the nearest name."""
@@ -207,5 +222,5 @@ class SimulatedWorld:
 
         return JudgedPlant(
             self.entries, robot, seed=seed, physics_ms=physics_ms, reality=self.profile,
-            eyes=self.eyes,
+            eyes=self.eyes, localisation=self.localisation,
         )  # fmt: skip

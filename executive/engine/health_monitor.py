@@ -336,7 +336,10 @@ def _battery(power: PowerState) -> list[Finding]:
 
 
 def _fix(world: WorldState, now_s: float) -> list[Finding]:
-    """How old the last absolute fix of the pose is, as the world model says itself."""
+    """Whether it knows where it is, and how old the last absolute fix of the pose is."""
+    if world.lost:
+        reason = failure("localisation_lost", world.lost)
+        return [Finding(name="localisation", level=Level.HOLD, failure=reason)]
     age_s = world.fix_age_s + max(0.0, now_s - world.stamp_s)
     text = f"no fix of the robot's pose for {age_s:.1f} s"
     found = _graded("fix", age_s, text, fix_age_s=round(age_s, 3))

@@ -24,7 +24,7 @@ from executive.runs.task_run import Assignment
 from robot import config, yaml_nodes
 from robot.errors import ConfigError, Problem
 from robot.failures import CATALOGUE
-from robot.messages import EyesBy
+from robot.messages import EyesBy, LocalisedBy
 from robot.reality import truth
 from robot.reality.contract import Reality
 from robot.yaml_nodes import Node
@@ -108,7 +108,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True):
 
     `robot`, by name or path, stands for that of the mission where it is not empty. `reality` is a
     profile (docs/realities.md), left out where it is the one without flaws. `eyes` find the things;
-    left out where they are the oracle's.
+    left out where they are the oracle's. `localisation` says where it is, left out in the same way.
     """
 
     case: Case
@@ -117,6 +117,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True):
     robot: str = ""
     reality: str | msgspec.UnsetType = msgspec.UNSET
     eyes: EyesBy | msgspec.UnsetType = msgspec.UNSET
+    localisation: LocalisedBy | msgspec.UnsetType = msgspec.UNSET
 
     @property
     def key(self) -> str:
@@ -262,6 +263,7 @@ def runs(
     robot: str,
     reality: str = IDEAL,
     eyes: EyesBy = "oracle",
+    localisation: LocalisedBy = "oracle",
 ) -> list[Run]:
     """Every case with every seed, the seeds outermost, so that all cases get on evenly.
 
@@ -272,6 +274,7 @@ def runs(
         robot: who does it.
         reality: in which.
         eyes: who tells the robot where the things are.
+        localisation: who tells it where it is.
 
     Raises:
         ConfigError: they are more than `MOST_RUNS`.
@@ -280,8 +283,17 @@ def runs(
     check_count(len(cases) * seeds * len(ways))
     profile = msgspec.UNSET if reality == IDEAL else reality
     seen_by = msgspec.UNSET if eyes == "oracle" else eyes
+    placed_by = msgspec.UNSET if localisation == "oracle" else localisation
     return [
-        Run(case=case, seed=seed, recovery=recovery, robot=robot, reality=profile, eyes=seen_by)
+        Run(
+            case=case,
+            seed=seed,
+            recovery=recovery,
+            robot=robot,
+            reality=profile,
+            eyes=seen_by,
+            localisation=placed_by,
+        )
         for seed in range(seeds)
         for case in cases
         for recovery in ways

@@ -130,7 +130,7 @@ def _begun(handle: Handle | None) -> Prepared | None:
     if there is None:
         return None
     where = request.setting(
-        REALITY.under(there.reality, eyes=there.eyes),
+        REALITY.under(there.reality, eyes=there.eyes, localisation=there.localisation),
         there.world,
         robot=there.robot,
         vary_seed=there.variation_seed,

@@ -33,7 +33,7 @@ def do(options: Do, handle: Handle | None = None) -> int:
 
     def prepare() -> Prepared | int:
         where = request.setting(
-            REALITY.under(options.reality, eyes=options.eyes),
+            REALITY.under(options.reality, eyes=options.eyes, localisation=options.localisation),
             options.world,
             robot=options.robot,
             vary_seed=options.vary_seed,

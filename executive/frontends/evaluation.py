@@ -50,6 +50,7 @@ def evaluate(options: Eval) -> int:
         robot=options.robot,
         reality=options.reality,
         eyes=options.eyes,
+        localisation=options.localisation,
     )
     root = Path(executive.__file__).parent.parent
     with Results(_folder(options), fingerprint=fingerprint(root)) as results:
@@ -242,7 +243,7 @@ def _go_through(
     results: Results, runs: list[Run], options: Eval, screen: Screen, *, ending: Ending
 ) -> None:
     """Do the runs that are left, keeping each record as it comes."""
-    there = REALITY.under(options.reality, eyes=options.eyes)
+    there = REALITY.under(options.reality, eyes=options.eyes, localisation=options.localisation)
     work = (
         pool.on_ray(runs, there, stop=lambda: ending.asked)
         if options.ray

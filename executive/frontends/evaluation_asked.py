@@ -10,7 +10,7 @@ import msgspec
 
 from executive.frontends.options import Eval
 from robot.errors import ConfigError, Problem
-from robot.messages import EyesBy
+from robot.messages import EyesBy, LocalisedBy
 from robot.ordinary_files import read_ordinary, write_ordinary
 from robot.plain_data import fitted, from_json
 
@@ -32,6 +32,7 @@ class Asked(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     robot: str = ""
     reality: str = "ideal"
     eyes: EyesBy = "oracle"
+    localisation: LocalisedBy = "oracle"
     seeds: Annotated[int, msgspec.Meta(ge=1, le=10_000)] = 1
     no_recovery: bool = False
 
@@ -51,6 +52,7 @@ def keep(folder: Path, options: Eval) -> None:
         robot=options.robot,
         reality=options.reality,
         eyes=options.eyes,
+        localisation=options.localisation,
         seeds=options.seeds,
         no_recovery=options.no_recovery,
     )
@@ -90,6 +92,7 @@ def as_before(options: Eval) -> Eval:
         homes=asked.homes,
         reality=asked.reality,
         eyes=asked.eyes,
+        localisation=asked.localisation,
         world=asked.world,
         robot=options.robot or asked.robot,
         seeds=max(options.seeds, asked.seeds),

@@ -25,7 +25,7 @@ import typer
 
 from executive.frontends import completing
 from executive.frontends.dump.cli import Dump, DumpFormat, DumpOn
-from robot.messages import EyesBy
+from robot.messages import EyesBy, LocalisedBy
 
 T = TypeVar("T")
 
@@ -65,6 +65,14 @@ Eyes = Annotated[
         "--eyes",
         help="Who tells the robot where things are: oracle (the simulator), or camera: it finds, "
         "measures and names them in its own pictures (docs/perception.md; extra: vision).",
+    ),
+]
+Localisation = Annotated[
+    LocalisedBy,
+    typer.Option(
+        "--localisation",
+        help="Who tells the robot where it is: oracle (the simulator), or lidar: it finds itself "
+        "with its lidar and legs in a map that it made itself (docs/localisation.md).",
     ),
 ]
 Driver = Annotated[
@@ -111,6 +119,7 @@ class Seeded:
     seed: Seed = 0
     reality: InReality = "ideal"
     eyes: Eyes = "oracle"
+    localisation: Localisation = "oracle"
     fast: Annotated[
         bool,
         typer.Option(
@@ -290,6 +299,7 @@ class Eval:
     ] = ""
     reality: InReality = "ideal"
     eyes: Eyes = "oracle"
+    localisation: Localisation = "oracle"
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")] = (
         False
     )

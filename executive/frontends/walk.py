@@ -27,7 +27,9 @@ def walk(options: Walk) -> int:
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
     where = request.setting(
-        REALITY.under(options.reality, eyes=options.eyes), options.world, robot=options.robot
+        REALITY.under(options.reality, eyes=options.eyes, localisation=options.localisation),
+        options.world,
+        robot=options.robot,
     )
     command = VelocityCommand(
         forward_m_s=options.speed,

@@ -20,7 +20,7 @@ from executive.runs import provenance
 from executive.runs.provenance import Origin
 from executive.runs.runtimes import Setup
 from robot.errors import ConfigError, Problem
-from robot.messages import EyesBy
+from robot.messages import EyesBy, LocalisedBy
 from robot.ordinary_files import is_within, make_below, read_ordinary, write_ordinary
 from robot.yaml_nodes import MAX_BYTES
 
@@ -38,6 +38,7 @@ class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     `reality`: the profile of the simulated one (docs/realities.md).
     `driver`: of the motors, where that is not the one that the robot's description names.
     `eyes`: who told where the things were, the oracle or the robot's own camera.
+    `localisation`: who told where the robot was, the oracle or its own lidar.
     `attended`: a person was there, to ask for more and to inject faults.
     """
 
@@ -50,6 +51,7 @@ class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     reality: str = "ideal"
     driver: str = ""
     eyes: EyesBy = "oracle"
+    localisation: LocalisedBy = "oracle"
     attended: bool = False
     origin: Origin | None = None
 
@@ -67,6 +69,7 @@ def header(setup: Setup, *, text: str, attended: bool = False) -> Header:
         reality=where.world.profile,
         driver=setup.driver,
         eyes=where.world.eyes,
+        localisation=where.world.localisation,
         attended=attended,
         origin=provenance.of(where.world, where.description),
     )

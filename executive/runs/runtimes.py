@@ -15,6 +15,7 @@ import msgspec
 
 from executive.engine.loop import Runtime
 from executive.meaning.request import Setting
+from executive.runs import lidar_maps
 from robot.bringup.mailbox import Handle
 from robot.errors import ConfigError, Problem
 from robot.planning.worker import Planner
@@ -61,7 +62,8 @@ def fast(setup: Setup) -> Generator[tuple[FastRuntime, Planner]]:
     from robot.planning.inline import InlinePlanner
 
     where = setup.where
-    with FastRuntime(where.world, where.robot_name, seed=setup.seed) as runtime:
+    map_file = lidar_maps.needed(where)
+    with FastRuntime(where.world, where.robot_name, seed=setup.seed, lidar_map=map_file) as runtime:
         yield runtime, InlinePlanner(where.description)
 
 
@@ -105,5 +107,6 @@ def opened(setup: Setup, *, handle: Handle | None = None) -> Generator[Opened]:
             pictures=setup.pictures,
             handle=handle,
             motors=setup.driver,
+            lidar_map=lidar_maps.needed(where),
         )
         yield Opened(stack.enter_context(live), planner)

@@ -15,7 +15,7 @@ from executive.skills.place import PlaceParams
 from executive.trees.parts import Errand, Part, Settle, children
 from robot.exit_status import exit_status
 from robot.failures import Failure
-from robot.messages import EyesBy, LoopTiming, WorldState
+from robot.messages import EyesBy, LocalisedBy, LoopTiming, WorldState
 
 
 class Summary(msgspec.Struct, frozen=True, kw_only=True):
@@ -41,6 +41,7 @@ class Summary(msgspec.Struct, frozen=True, kw_only=True):
     folder: str = ""
     unwritten: tuple[str, ...] = ()
     eyes: EyesBy = "oracle"
+    localisation: LocalisedBy = "oracle"
 
     @property
     def real_time_factor(self) -> float:
@@ -97,6 +98,7 @@ def summary(session: Session, task: Part, *, since_s: float, wall_s: float) -> S
         late=late_periods(runtime),
         folder=str(folder) if folder and (folder / FILE).exists() else "",
         eyes=session.setup.where.world.eyes,
+        localisation=session.setup.where.world.localisation,
     )
 
 
@@ -151,7 +153,8 @@ def _placed(
     return tuple({placed.object: placed for placed in found}.values())
 
 
-SEEN = "  things were seen by its own camera; oracle still: its place, people, the map of the room"
+SEEN = "things were seen by its own camera"
+FOUND = "it found its place by its own lidar"
 
 
 def last_lines(summary: Summary) -> list[str]:
@@ -165,8 +168,7 @@ def last_lines(summary: Summary) -> list[str]:
     for item in summary.expected:
         instead = f": {item.found}" if item.found and not item.so else ""
         lines.append(f"  {'as expected' if item.so else 'NOT SO     '}  {item.check}{instead}")
-    if summary.eyes == "camera":
-        lines.append(SEEN)
+    lines += _own_senses(summary)
     pace = f"{summary.simulated_s:.1f} s of robot time in {summary.wall_s:.1f} s of wall time"
     lines.append(f"  {pace} ({summary.real_time_factor:.1f} x)")
     recovered = "1 recovery" if summary.recoveries == 1 else f"{summary.recoveries} recoveries"
@@ -178,3 +180,16 @@ def last_lines(summary: Summary) -> list[str]:
         lines += [f"  NOT KEPT     {what}" for what in summary.unwritten]
         lines.append("  make room on the disk before the next run, or choose another --run-dir")
     return lines + failures.advice(summary.suggestion)
+
+
+def _own_senses(summary: Summary) -> list[str]:
+    """What it did with its own senses, and what was told still; none by default."""
+    own = {SEEN: summary.eyes == "camera", FOUND: summary.localisation == "lidar"}
+    still = [
+        *(["where things are"] if summary.eyes == "oracle" else []),
+        *(["its place"] if summary.localisation == "oracle" else []),
+        "people",
+        "the map of the room",
+    ]
+    said = "; ".join(text for text, is_so in own.items() if is_so)
+    return [f"  {said}; oracle still: {', '.join(still)}"] if said else []

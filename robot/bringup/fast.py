@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from robot.bringup.lockstep import Lockstep
 from robot.bus import topics
 from robot.bus.bus import LocalBus
@@ -28,6 +30,7 @@ class FastRuntime(Lockstep):
         *,
         seed: int = 0,
         bus: LocalBus | None = None,
+        lidar_map: Path | None = None,
     ) -> None:
         """Build every part; nothing moves before `advance`.
 
@@ -36,9 +39,10 @@ class FastRuntime(Lockstep):
             robot: name or path of a robot description.
             seed: of everything random.
             bus: to carry the messages; a new one by default.
+            lidar_map: the map that it finds itself in, where its lidar tells it where it is.
 
         Raises:
-            ConfigError: if the robot cannot be used.
+            ConfigError: if the robot or the map cannot be used.
         """
         bus = bus or LocalBus()
         body = description.load(robot)
@@ -51,7 +55,13 @@ class FastRuntime(Lockstep):
         super().__init__(
             plant,
             lambda: _controller(body, states.latest),
-            PerceptionNode(wiring, eyes=world.eyes, take=None if camera is None else camera.take),
+            PerceptionNode(
+                wiring,
+                eyes=world.eyes,
+                take=None if camera is None else camera.take,
+                localisation=world.localisation,
+                lidar_map=lidar_map,
+            ),
             body=BodyDevices(wiring, needs=NEEDS),
             bus=bus,
             clock=clock,

@@ -82,6 +82,7 @@ class LiveRuntime(Closing):
         pictures: bool = False,
         handle: Handle | None = None,
         motors: str = "",
+        lidar_map: Path | None = None,
     ) -> None:
         """Check everything that can be checked before a process starts.
 
@@ -95,6 +96,7 @@ class LiveRuntime(Closing):
             pictures: whether what the robot's camera sees is rendered, in a process of its own.
             handle: on the process above, where that one looks after the processes.
             motors: driver of the motors in place of the one that the description names.
+            lidar_map: the map that it finds itself in, where its lidar tells it where it is.
 
         Raises:
             ConfigError: if the robot or one of its drivers cannot be used.
@@ -113,6 +115,8 @@ class LiveRuntime(Closing):
             pictures=pictures or world.eyes == "camera",
             motors=motors,
             eyes=world.eyes,
+            localisation=world.localisation,
+            lidar_map="" if lidar_map is None else str(lidar_map),
         )
         self._handle = handle
         self._crew: Crew | None = None

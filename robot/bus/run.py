@@ -7,7 +7,7 @@ from pathlib import Path
 import msgspec
 
 from robot.errors import ConfigError
-from robot.messages import EyesBy
+from robot.messages import EyesBy, LocalisedBy
 
 
 class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -18,7 +18,8 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     `reality` is the profile of the simulated one; `simulated` says whether there is one, `pictures`
     whether somebody looks through its camera. `motors` is the driver of the motors in place of the
     one in the robot's description; in simulation it is emulated. `eyes` is who tells where
-    things are.
+    things are, `localisation` where the robot is; `lidar_map` is the file of the map that it then
+    finds itself in.
     """
 
     folder: str
@@ -32,6 +33,8 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     pictures: bool = False
     motors: str = ""
     eyes: EyesBy = "oracle"
+    localisation: LocalisedBy = "oracle"
+    lidar_map: str = ""
 
     @property
     def memory(self) -> Path:

@@ -29,6 +29,7 @@ class Localiser:
         jumps: how often the estimate had to be thrown over.
         rejected: fixes not believed, in all.
         source: where the fixes come from.
+        covariance: of the last fix believed, as it says.
     """
 
     def __init__(self, history: BodyHistory) -> None:
@@ -37,10 +38,12 @@ class Localiser:
         self.jumps = 0
         self.rejected = 0
         self.source: Source = "estimate"
+        self.covariance: tuple[float, ...] = ()
         self._history = history
         self._restarts = history.restarts
         self._suspect: SE3 | None = None
         self._suspects = 0
+        self._thrown_over = False
 
     @property
     def X_WN(self) -> SE3:
@@ -62,13 +65,21 @@ class Localiser:
             return True
         age_s = max(0.0, fix.stamp_s - self.fixed_s)
         distance_m, angle_rad = _apart(X_WN, self.X_WN, X_NB)
+        if self._thrown_over:
+            self.jumps += distance_m > GATE_M or angle_rad > GATE_RAD
+            self._restart(X_WN, fix)
+            return True
         if distance_m > GATE_M + DRIFT_M_S * age_s or angle_rad > GATE_RAD + DRIFT_RAD_S * age_s:
             return self._doubt(X_WN, X_NB, fix)
         self._suspects = 0
         share = 1.0 - math.exp(-age_s / SMOOTHING_S)
         self._pose = _towards(self._pose, X_WN, X_NB, share)
-        self.fixed_s = fix.stamp_s
+        self.fixed_s, self.covariance = fix.stamp_s, fix.covariance
         return True
+
+    def throw_over(self) -> None:
+        """Believe the next fix, wherever it is: whoever made it was lost, and knows that."""
+        self._thrown_over = True
 
     def _doubt(self, X_WN: SE3, X_NB: SE3, fix: PoseFix) -> bool:
         """Reject, unless enough fixes in a row say the same."""
@@ -87,10 +98,10 @@ class Localiser:
 
     def _restart(self, X_WN: SE3, fix: PoseFix) -> None:
         self._pose = X_WN
-        self.fixed_s = fix.stamp_s
+        self.fixed_s, self.covariance = fix.stamp_s, fix.covariance
         self.source = fix.source
         self._restarts = self._history.restarts
-        self._suspects = 0
+        self._suspects, self._thrown_over = 0, False
 
 
 def _between(X_WB: SE3, X_NB: SE3) -> SE3:

@@ -15,6 +15,7 @@ Frames (docs/frames.md): W world; N odometry (the controller's own: smooth, drif
 from robot.messages.basics import (
     Channel,
     EyesBy,
+    LocalisedBy,
     Message,
     Mode,
     Side,
@@ -94,6 +95,7 @@ __all__ = [
     "ImuBias",
     "Landing",
     "LidarScan",
+    "LocalisedBy",
     "Look",
     "Looked",
     "LoopTiming",

@@ -97,10 +97,14 @@ class PowerState(Message, frozen=True, kw_only=True):
 
 
 class PoseFix(Message, frozen=True, kw_only=True):
-    """Where the base is in the world, absolutely, at the stamp."""
+    """Where the base is in the world, absolutely, at the stamp.
+
+    `covariance`, row by row, is of the errors of x, y [m] and heading [rad]; () if it is unknown.
+    """
 
     X_WB: SE3
     source: Source
+    covariance: tuple[float, ...] = ()
 
 
 class Sighting(msgspec.Struct, frozen=True, kw_only=True):

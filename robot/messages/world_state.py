@@ -158,6 +158,8 @@ class WorldState(Message, frozen=True, kw_only=True):
     of X_WN had to be thrown over. `unmapped` is what the sensors see and the map does not explain.
     `people` are tracked like objects; one not seen yet (`seen_s` -inf) is where the map says.
     `looked` is what of the surfaces has been in view, near enough and with nothing before it.
+    `covariance`, row by row, is of the errors of the base's x, y [m] and heading [rad], () where it
+    is unknown; `lost` says why the robot does not know where it is, "" while it does.
     """
 
     X_WN: SE3
@@ -169,3 +171,5 @@ class WorldState(Message, frozen=True, kw_only=True):
     looked: tuple[Looked, ...] = ()
     jumps: int = 0
     source: Source = "oracle"
+    covariance: tuple[float, ...] = ()
+    lost: str = ""

@@ -26,7 +26,14 @@ def main(run_file: str, parent_pid: str) -> None:
     with ZenohBus("perception", config.sockets) as bus:
         album = Album(Path(config.folder) / COLOUR_FILE)
         wiring = Wiring(robot=robot, clock=clock, bus=bus)
-        node = PerceptionNode(wiring, looks=config.pictures, album=album, eyes=config.eyes)
+        node = PerceptionNode(
+            wiring,
+            looks=config.pictures,
+            album=album,
+            eyes=config.eyes,
+            localisation=config.localisation,
+            lidar_map=Path(config.lidar_map) if config.lidar_map else None,
+        )
         stop = Stop()
         with node:
             while not stop:

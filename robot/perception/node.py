@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Self
+from pathlib import Path
+from typing import TYPE_CHECKING, Self
 
 import mujoco
 import numpy as np
@@ -22,6 +23,7 @@ from robot.messages import (
     DepthImage,
     EyesBy,
     LidarScan,
+    LocalisedBy,
     Message,
     PoseFix,
     Sightings,
@@ -33,6 +35,9 @@ from robot.perception.album import Album
 from robot.perception.eye import Eye
 from robot.perception.gaze import Gaze, Take
 from robot.se3 import SE3
+
+if TYPE_CHECKING:
+    from robot.perception.own_place import OwnPlace
 
 PERIOD_S = 0.1
 PATIENCE_S = 0.3
@@ -58,6 +63,8 @@ class PerceptionNode(Closing):
         album: Album | None = None,
         eyes: EyesBy = "oracle",
         take: Take | None = None,
+        localisation: LocalisedBy = "oracle",
+        lidar_map: Path | None = None,
     ) -> None:
         """Subscribe; compile the body for the poses of camera and lidar.
 
@@ -68,10 +75,12 @@ class PerceptionNode(Closing):
             eyes: who tells where things are; with "camera" they are found in pictures.
             take: takes a picture of that very moment; without, the newest of the camera is looked
                 at.
+            localisation: who tells where the robot is; with "lidar" its scans do.
+            lidar_map: the file of the map that they tell it in.
 
         Raises:
             DescriptionError: if description and MJCF disagree.
-            ConfigError: if the description names a driver that there is not.
+            ConfigError: if the description names a driver that there is not, or the map is none.
         """
         bus, description = wiring.bus, wiring.robot
         sensors = description.sensors
@@ -92,6 +101,7 @@ class PerceptionNode(Closing):
         self._lidar = self._body.site_id(sensors.lidar.site)
         self._history = BodyHistory()
         self._localiser = Localiser(self._history)
+        self._own = _own_place(lidar_map, self._history) if localisation == "lidar" else None
         self._world = WorldModel(camera_range_m=sensors.camera.range_m)
         self._looked = LookedOver()
         radius_m = description.body_radius_m
@@ -154,8 +164,11 @@ class PerceptionNode(Closing):
             self._in_view.know(fixed)
 
     def _take(self, message: Message) -> None:
+        if isinstance(message, LidarScan) and self._own is not None:
+            self._find_itself(message, self._own)
         if isinstance(message, PoseFix):
-            self._locate(message)
+            if self._own is None:
+                self._locate(message)
         elif isinstance(message, DepthImage):
             self._depth = message
             self._look_out(message)
@@ -171,6 +184,17 @@ class PerceptionNode(Closing):
             if X_WLidar is not None:
                 self._feel(self._unmapped)
                 self._unmapped.see(message, X_WLidar)
+
+    def _find_itself(self, scan: LidarScan, own: OwnPlace) -> None:
+        """Let a scan say where the robot is."""
+        X_NL = self._site_in_odometry(self._lidar, scan.stamp_s)
+        if X_NL is None:
+            return
+        was_lost, fix = own.lost, own.see(scan, X_NL)
+        if fix is not None:
+            if was_lost:
+                self._localiser.throw_over()
+            self._locate(fix)
 
     def _locate(self, fix: PoseFix) -> None:
         """Take a fix; what stands in the way was seen from elsewhere if the pose is thrown over."""
@@ -229,6 +253,11 @@ class PerceptionNode(Closing):
         return depth if depth and abs(depth.stamp_s - stamp_s) <= MAX_SKEW_S else None
 
     def _site_in_world(self, site: int, stamp_s: float) -> SE3 | None:
+        """Where a site of the body was at a stamp, as far as is known where the robot is."""
+        X_NSite = self._site_in_odometry(site, stamp_s)
+        return None if X_NSite is None else self._localiser.X_WN @ X_NSite
+
+    def _site_in_odometry(self, site: int, stamp_s: float) -> SE3 | None:
         """Where a site of the body was at a stamp, by forward kinematics from the base."""
         X_NB, joints = self._history.base_at(stamp_s), self._history.joints_at(stamp_s)
         if X_NB is None or joints is None:
@@ -236,7 +265,7 @@ class PerceptionNode(Closing):
         self._body.write_base(self._data, X_NB)
         self._body.write_joints(self._data, np.array(joints))
         mujoco.mj_kinematics(self._body.model, self._data)
-        return self._localiser.X_WN @ self._body.site_pose(self._data, site)
+        return self._body.site_pose(self._data, site)
 
     def _publish(self) -> None:
         """Say what is believed, once the robot knows where it is."""
@@ -267,5 +296,13 @@ class PerceptionNode(Closing):
                 looked=self._looked.looked(),
                 jumps=localiser.jumps,
                 source=localiser.source,
+                covariance=localiser.covariance,
+                lost="" if self._own is None else self._own.lost,
             ),
         )
+
+
+def _own_place(lidar_map: Path | None, history: BodyHistory) -> OwnPlace:
+    from robot.perception.own_place import OwnPlace  # scipy, which takes a while to load
+
+    return OwnPlace(lidar_map, history)

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, Protocol
 from robot.bus.topics import Topic
 from robot.closing import Closing
 from robot.drivers.wiring import SimulatedPlant
-from robot.messages import EyesBy, Message, WorldMap
+from robot.messages import EyesBy, LocalisedBy, Message, WorldMap
 from robot.model.description import RobotDescription
 from robot.reality.faults import Fault
 from robot.reality.studio import Renderer, RobotCamera, Studio
@@ -36,8 +36,15 @@ class Reality(Protocol):
         """Who tells robots there where the things are (docs/perception.md)."""
         ...
 
-    def under(self, profile: str, *, eyes: EyesBy = "oracle") -> Reality:
-        """The same with another profile (docs/realities.md) and other eyes.
+    @property
+    def localisation(self) -> LocalisedBy:
+        """Who tells robots there where they are (docs/localisation.md)."""
+        ...
+
+    def under(
+        self, profile: str, *, eyes: EyesBy = "oracle", localisation: LocalisedBy = "oracle"
+    ) -> Reality:
+        """The same with another profile (docs/realities.md), other eyes, another localisation.
 
         Raises:
             ConfigError: there is none of that name, with the nearest one.
@@ -204,6 +211,11 @@ class World(Protocol):
 
     @property
     def eyes(self) -> EyesBy:
+        """Of the reality it was read from."""
+        ...
+
+    @property
+    def localisation(self) -> LocalisedBy:
         """Of the reality it was read from."""
         ...
 

@@ -122,6 +122,34 @@ class Mislead(FaultRecord, frozen=True, kw_only=True):
     duration_s: q.Span = math.inf
 
 
+class Kidnap(FaultRecord, frozen=True, kw_only=True):
+    """The robot is suddenly elsewhere on the floor, in the same motion, and nothing tells it.
+
+    It is at `at_m`, or `by_m` from where it was, in the world's axes, turned by `turn_deg`. What it
+    has in its hands stays behind.
+    """
+
+    at_m: tuple[q.Place, q.Place] | None = None
+    by_m: tuple[q.Place, q.Place] | None = None
+    turn_deg: q.Heading = 0.0
+
+    def __post_init__(self) -> None:
+        """Check that there is one destination."""
+        if (self.at_m is None) == (self.by_m is None):
+            raise ValueError("give exactly one of at_m, by_m")
+
+
+class CoverLidar(FaultRecord, frozen=True, kw_only=True):
+    """Something covers the lidar: the beams of a sector come back empty for `duration_s`.
+
+    The sector is `width_deg` wide about an angle from where the lidar faces; 0: it is taken off.
+    """
+
+    width_deg: q.Sector = 360.0
+    towards_deg: q.Heading = 0.0
+    duration_s: q.Span = math.inf
+
+
 class OffsetImu(FaultRecord, frozen=True, kw_only=True):
     """From now on the IMU is off, in its own axes, besides its noise; all zero: as it was.
 
@@ -194,7 +222,8 @@ class Kill(FaultRecord, frozen=True, kw_only=True):
 
 Fault = (
     Push | Shove | KnockOver | Move | Occupy | StandInWay | Remove | Silence | Mislead
-    | OffsetImu | Sill | Slope | Load | Delay | Heat | Discharge | MotorOff | Kill
+    | Kidnap | CoverLidar | OffsetImu | Sill | Slope | Load | Delay | Heat | Discharge | MotorOff
+    | Kill
 )  # fmt: skip
 KINDS: dict[str, type[FaultRecord]] = {_name(kind.__name__): kind for kind in get_args(Fault)}
 """Name to fault."""

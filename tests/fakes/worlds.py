@@ -67,6 +67,7 @@ def puppet() -> SensingPuppet:
 
 
 EYES: m.EyesBy = "oracle"
+LOCALISATION: m.LocalisedBy = "oracle"
 
 
 class MappedWorld:
@@ -75,7 +76,7 @@ class MappedWorld:
     def __init__(self, name: str = "test") -> None:
         self.name = name
         self.vary_seed = None
-        self.profile, self.eyes = "ideal", EYES
+        self.profile, self.eyes, self.localisation = "ideal", EYES, LOCALISATION
         self.map = world_map()
 
     def content(self) -> bytes:
@@ -85,9 +86,15 @@ class MappedWorld:
 class Mapped:
     """A reality of such worlds, whatever is asked for."""
 
-    profile, eyes = "ideal", EYES
+    profile, eyes, localisation = "ideal", EYES, LOCALISATION
 
-    def under(self, profile: str, *, eyes: m.EyesBy = EYES) -> Mapped:
+    def under(
+        self,
+        profile: str,
+        *,
+        eyes: m.EyesBy = EYES,
+        localisation: m.LocalisedBy = LOCALISATION,
+    ) -> Mapped:
         return self
 
     def names(self) -> list[str]:

@@ -53,6 +53,7 @@ def _converse(options: Listen, handle: Handle | None, speech: Speech) -> int:
         world=options.world, robot=options.robot, seed=options.seed, fast=options.fast,
         run_dir=options.run_dir, model=options.model, reality=options.reality,
         eyes=options.eyes,
+        localisation=options.localisation,
         driver=options.driver,
     )  # fmt: skip
     with cli.conversation(prompt, "listen", handle=handle, speech=speech) as shell:

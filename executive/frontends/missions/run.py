@@ -28,7 +28,11 @@ def run(options: Run, handle: Handle | None = None) -> int:
     def prepare() -> Prepared:
         given = said(options, vary_seed=options.vary_seed)
         path = load.find(options.file)
-        checked = check(path, REALITY.under(options.reality, eyes=options.eyes), given)
+        checked = check(
+            path,
+            REALITY.under(options.reality, eyes=options.eyes, localisation=options.localisation),
+            given,
+        )
         say_notes(checked)
         folder = folder_for(options.run_dir, checked.mission.record.name, handle)
         mission_assignment.keep(checked, folder)

@@ -68,6 +68,7 @@ def go_on_with(recorded: Recording, model: Path | None) -> int:
         fast=header.runtime == "fast",
         vary=header.varied,
         eyes=header.eyes,
+        localisation=header.localisation,
         model=model,
         left_by=recorded.folder,
     )
@@ -148,7 +149,7 @@ def conversation(
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
     where = request.setting(
-        REALITY.under(options.reality, eyes=options.eyes),
+        REALITY.under(options.reality, eyes=options.eyes, localisation=options.localisation),
         options.world,
         robot=options.robot,
         vary_seed=options.vary_seed,

@@ -11,7 +11,7 @@ from typing import Any
 from executive.frontends.output import say
 from executive.frontends.settings.files import Settings
 
-PLACE = frozenset({"world", "robot", "seed", "vary", "eyes"})
+PLACE = frozenset({"world", "robot", "seed", "vary", "eyes", "localisation"})
 TALK = PLACE | {"view", "voice", "voice_model", "model"}
 APPLIES: dict[str, frozenset[str]] = {
     "do": TALK,
@@ -20,7 +20,7 @@ APPLIES: dict[str, frozenset[str]] = {
     "config": TALK,
     "listen": PLACE - {"vary"} | {"model", "voice_model"},
     "parse": frozenset({"world", "model"}),
-    "view": PLACE - {"vary", "eyes"},
+    "view": PLACE - {"vary", "eyes", "localisation"},
     "doctor": frozenset({"robot"}),
     "walk": frozenset({"robot"}),
 }

@@ -7,11 +7,14 @@ from typing import Annotated, Any, cast
 
 import typer
 
-from executive.frontends.options import AsJson, Eyes, Model, Robot, Seed, View, World
+from executive.frontends.options import AsJson, Eyes, Localisation, Model, Robot, Seed, View, World
 from executive.frontends.output import say, table_screen, write_json
 from executive.frontends.settings.files import Hooks, Settings, Value
 
-KEYS = ("world", "robot", "seed", "vary", "eyes", "view", "voice", "voice_model", "model")
+KEYS = (
+    "world", "robot", "seed", "vary", "eyes", "localisation", "view", "voice", "voice_model",
+    "model",
+)  # fmt: skip
 VARIABLES = {"model": "HUMANOID_MODEL"}
 
 
@@ -27,6 +30,7 @@ def register(app: typer.Typer, settings: Settings) -> None:
         seed: Seed = 0,
         vary: Annotated[bool, typer.Option("--vary", help="As of do.")] = False,
         eyes: Eyes = "oracle",
+        localisation: Localisation = "oracle",
         view: View = False,
         voice: Annotated[bool, typer.Option("--voice", help="As of do.")] = False,
         voice_model: Annotated[Path | None, typer.Option("--voice-model", help="As of do.")] = None,
@@ -46,8 +50,9 @@ def register(app: typer.Typer, settings: Settings) -> None:
         that is not there is named, and the exit status is not 0.
         """
         given = {
-            "world": world, "robot": robot, "seed": seed, "vary": vary, "eyes": eyes, "view": view,
-            "voice": voice, "voice_model": voice_model, "model": model,
+            "world": world, "robot": robot, "seed": seed, "vary": vary, "eyes": eyes,
+            "localisation": localisation, "view": view, "voice": voice,
+            "voice_model": voice_model, "model": model,
         }  # fmt: skip
         sources = {key: getattr(context.get_parameter_source(key), "name", "") for key in KEYS}
         _tell(settings, given, sources, as_json=as_json)

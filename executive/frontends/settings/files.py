@@ -35,7 +35,7 @@ from executive.frontends import keys
 from executive.frontends.options import MOST_SEED
 from robot import config, plain_data
 from robot.errors import ConfigError, Problem
-from robot.messages import EyesBy
+from robot.messages import EyesBy, LocalisedBy
 from robot.ordinary_files import is_within, open_ordinary
 
 PROJECT = Path("humanoid.toml")
@@ -84,6 +84,7 @@ class Project(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     seed: Annotated[int, Meta(ge=0, le=MOST_SEED)] | None = None
     vary: bool | None = None
     eyes: EyesBy | None = None
+    localisation: LocalisedBy | None = None
 
 
 class User(Project, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -130,7 +130,7 @@ def setting(recording: Recording, reality: Reality) -> tuple[Setting, list[str]]
 
 def _where(header: Header, reality: Reality) -> Setting:
     vary_seed = header.seed if header.varied else None
-    there = reality.under(header.reality, eyes=header.eyes)
+    there = reality.under(header.reality, eyes=header.eyes, localisation=header.localisation)
     return request.setting(there, header.world, robot=header.robot, vary_seed=vary_seed)
 
 

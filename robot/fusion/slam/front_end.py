@@ -71,8 +71,24 @@ class FrontEnd:
         pose: where it is in this frame, at the last scan.
     """
 
-    def __init__(self, *, key_m: float = KEY_M, recent: int = RECENT) -> None:
+    def __init__(
+        self,
+        *,
+        key_m: float = KEY_M,
+        recent: int = RECENT,
+        slip: float = 1.0,
+        fits: float = FITS,
+    ) -> None:
+        """Begin at the origin.
+
+        Args:
+            key_m: a scan that is farther than this from the last key frame becomes one.
+            recent: key frames that a scan is matched to.
+            slip: how far odometry errs, against that of wheels; what it learns comes on top.
+            fits: a match that explains less of the scan is searched for in a window.
+        """
         self.pose = np.zeros(3)
+        self._slip, self._fits = slip, fits
         self._key_m = key_m
         self._odometry: Array | None = None
         self._seen_m: Array | None = None
@@ -109,6 +125,7 @@ class FrontEnd:
             )
             * (1.0 + self._lost)
             * self._noise
+            * self._slip
         )
         expected = compose(self.pose, moved)
         found = self._find(scan, expected, sigmas)
@@ -138,7 +155,7 @@ class FrontEnd:
         prior = np.diag(1.0 / sigmas**2)
         points, normals = scan.points, scan.normals
         found = match(self._patch, points, normals, expected, prior=prior)
-        if found.fit >= FITS:
+        if found.fit >= self._fits:
             return found
         if self._raster is None:
             self._raster = Raster(self._patch.filled(CELL_M), levels=3, reach_m=LARGEST_WINDOW_M)

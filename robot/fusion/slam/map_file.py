@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
@@ -44,6 +45,7 @@ class SavedMap:
         keys: (k, 3) poses of the key frames.
         surface: (p, 5) points [m], their normals, and their spans [m]: what scans are matched to.
         places: poses (3,) by name.
+        height_m: of the lidar over the floor; NaN where it is not known.
     """
 
     grid: Grid
@@ -51,6 +53,7 @@ class SavedMap:
     keys: Array
     surface: Array
     places: dict[str, Array]
+    height_m: float = math.nan
 
 
 def surface_of(scans: list[Scan], poses: Array) -> Array:
@@ -84,6 +87,7 @@ def save(path: Path, saved: SavedMap) -> None:
             "surface": saved.surface.astype(np.float32),
             "place_names": np.array(names, dtype="U64"),
             "place_poses": np.array([saved.places[name] for name in names]).reshape(-1, 3),
+            **({} if math.isnan(saved.height_m) else {"height_m": np.array(saved.height_m)}),
         }
     )
     try:
@@ -118,11 +122,19 @@ def load(path: Path) -> SavedMap:
         keys=archive.numbers("keys", shape=(None, 3)),
         surface=archive.numbers("surface", shape=(None, 5)),
         places=_places(archive),
+        height_m=_height_m(archive),
     )
     wrong = _mistake(saved)
     if wrong:
         raise archive.wrong(wrong)
     return saved
+
+
+def _height_m(archive: Archive) -> float:
+    """Of the lidar; a map that was made without that says nothing of it."""
+    if "height_m" not in archive.names:
+        return math.nan
+    return float(archive.numbers("height_m", shape=()).reshape(-1)[0])
 
 
 def _cells(archive: Archive) -> NDArray[np.uint8]:

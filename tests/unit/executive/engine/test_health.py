@@ -302,3 +302,13 @@ def test_an_alarm_of_a_motor_is_told_at_its_level_with_joint_cause_and_cure(robo
     assert finding.failure.cause == "left_knee: silent for 3 periods"
     assert finding.failure.suggestion == "check its cable"
     assert (health.speed_m_s < 1.0) == (level == "DERATE")
+
+
+def test_a_robot_that_is_lost_stands_and_says_why():
+    watch = HealthMonitor({}, start_s=0.0)
+    lost = replace(where(1.0, 0), lost="I am lost: it is dark")
+    health = watch.look(1.0, {}, body=None, world=lost)
+    assert health.level is Level.HOLD
+    assert health.failure.code == "localisation_lost"
+    assert health.failure.cause == "I am lost: it is dark"
+    assert watch.look(1.1, {}, body=None, world=where(1.1, 0)).level is Level.OK

@@ -1,0 +1,79 @@
+"""Where maps are kept, and when one has to be made.
+
+A map is known by the hash of what stands fast in its world (walls and furniture, not things, people
+or where the robot begins), of the robot's lidar, and of the way maps are made. It is kept with the
+user's caches; those of worlds that come with the package come with it, too.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import msgspec
+
+from executive.meaning.request import Setting
+from robot.errors import ConfigError, Problem
+from robot.ordinary_files import make_below
+from robot.printable import printable
+from robot.user_state import user_cache_folder
+
+SHIPPED = Path(__file__).parent / "shipped"
+WAY = "led walk 1"
+"""How maps are made; another word for another way, so that old ones are not taken."""
+NAME_LENGTH = 40
+
+Tell = Callable[[str], None]
+
+
+def tell_on_screen(text: str) -> None:
+    """Say something beside what a command writes."""
+    sys.stderr.write(printable(text) + "\n")
+    sys.stderr.flush()
+
+
+def key_of(where: Setting) -> str:
+    """What a map of this world by this robot is known by."""
+    known, lidar = where.world_map, where.description.sensors.lidar
+    people = {person.id for person in known.people}
+    fast = [one for one in known.obstacles if one.id not in people]
+    content = msgspec.json.encode([WAY, where.description.name, lidar, fast])
+    return hashlib.sha256(content).hexdigest()[:16]
+
+
+def needed(where: Setting, *, tell: Tell = tell_on_screen) -> Path | None:
+    """The map that the robot finds itself in; None where it is told where it is.
+
+    One that is not there is made first, which takes a while and is said.
+
+    Raises:
+        ConfigError: it cannot be made, or kept.
+    """
+    if where.world.localisation != "lidar":
+        return None
+    name = _file_name(where)
+    folder = user_cache_folder()
+    shipped = SHIPPED / name
+    if shipped.is_file():
+        return shipped
+    if folder is None:
+        cure = "set HOME, or XDG_CACHE_HOME"
+        raise ConfigError([Problem("there is no folder to keep maps in", suggestion=cure)])
+    path = folder / "maps" / name
+    if not path.is_file():
+        from executive.runs.lidar_maps import led_walk  # a whole simulation
+        from robot.fusion.slam import map_file  # scipy, which no other run needs
+
+        tell(f"no map of {where.world.name} yet: leading the robot through it first (once)")
+        saved = led_walk.survey(where, tell=tell)
+        make_below(folder, folder / "maps")
+        map_file.save(path, saved)
+        tell(f"the map is kept as {path}")
+    return path
+
+
+def _file_name(where: Setting) -> str:
+    stem = "".join(c if c.isalnum() else "-" for c in Path(where.world.name).stem)
+    return f"{stem[:NAME_LENGTH]}-{where.description.name}-{key_of(where)}.map.npz"
