@@ -10,7 +10,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable, Mapping
 from functools import cache
-from typing import Any
+from typing import Any, cast
 
 from executive.frontends.ros2.interfaces import PRIMITIVES, Field, fields
 from robot.errors import RobotError
@@ -84,16 +84,16 @@ def _writer(interface: str) -> Write:
 
 def _nothing(field: Field) -> Any:
     """What a field holds that nobody has filled."""
-    if field.count is not None:
-        one = _nothing(field._replace(count=None))
-        return (one,) * field.count
+    if field.size is not None:
+        one = _nothing(field._replace(size=None))
+        return (one,) * field.size
     if field.of == "string":
         return ""
     return 0 if field.of in PRIMITIVES else {}
 
 
 def _field_writer(field: Field) -> Write:
-    many = field.count is not None
+    many = field.size is not None
     if field.of in PRIMITIVES:
         return _numbers_writer(field) if many else _number_writer(PRIMITIVES[field.of])
     one = _text if field.of == "string" else _writer(field.of)
@@ -122,7 +122,7 @@ def _numbers_writer(field: Field) -> Write:
             return  # an empty sequence is not padded for the elements that it lacks
         _align(out, size)
         if letter == "B" and isinstance(values, bytes | bytearray | memoryview):
-            out.extend(values)
+            out.extend(bytes(cast("bytes", values)))
         else:
             out.extend(struct.pack(f"<{len(values)}{letter}", *values))
 
@@ -140,11 +140,11 @@ def _each(field: Field, one: Write) -> Write:
 
 def _count(out: bytearray, field: Field, count: int) -> None:
     """How many follow, where that is not fixed."""
-    if field.count == 0:
+    if field.size == 0:
         _align(out, 4)
         out.extend(struct.pack("<I", count))
-    elif count != field.count:
-        raise CdrError(f"{field.name} takes {field.count}, not {count}")
+    elif count != field.size:
+        raise CdrError(f"{field.name} takes {field.size}, not {count}")
 
 
 def _text(out: bytearray, text: str) -> None:
@@ -175,9 +175,9 @@ class _Reader:
         return {field.name: self._field(field) for field in fields(interface)}
 
     def _field(self, field: Field) -> Any:
-        if field.count is None:
+        if field.size is None:
             return self._one(field.of)
-        count = field.count or self._number("I")
+        count = field.size or self._number("I")
         if count > len(self._data) - self.at:
             raise CdrError(f"{field.name} ends early: {count} elements")
         if field.of in PRIMITIVES:

@@ -144,7 +144,7 @@ class Field(NamedTuple):
 
     name: str
     of: str
-    count: int | None
+    size: int | None
 
 
 DUMMY = Field("structure_needs_at_least_one_member", "uint8", None)

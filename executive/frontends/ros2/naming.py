@@ -110,12 +110,6 @@ def dds_name(interface: str) -> str:
     return f"{package}::{kind}::dds_::{name}_"
 
 
-def namespace_of(name: str) -> str:
-    """A robot's name as a namespace: letters, digits and underscores, no digit first."""
-    plain = name.replace("-", "_")
-    return f"/{plain}" if not plain[:1].isdigit() else f"/_{plain}"
-
-
 def _mangled(name: str) -> str:
     """A name that is one part of a key."""
     return name.replace("/", "%")

@@ -41,10 +41,10 @@ def _described(interface: str) -> dict[str, Any]:
 
 def _field(field: Field) -> dict[str, Any]:
     number = _TYPE_IDS.get(field.of, _NESTED)
-    many = 0 if field.count is None else _ARRAY if field.count else _SEQUENCE
+    many = 0 if field.size is None else _ARRAY if field.size else _SEQUENCE
     kind = {
         "type_id": number + many,
-        "capacity": field.count or 0,
+        "capacity": field.size or 0,
         "string_capacity": 0,
         "nested_type_name": field.of if number == _NESTED else "",
     }

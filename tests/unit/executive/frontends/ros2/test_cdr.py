@@ -65,8 +65,8 @@ TEXT = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0")
 
 
 def value_of(field: Field):
-    if field.count is not None:
-        one, size = value_of(field._replace(count=None)), field.count
+    if field.size is not None:
+        one, size = value_of(field._replace(size=None)), field.size
         if field.of in ("uint8", "byte"):
             return st.binary(min_size=size, max_size=size or 7)
         return st.lists(one, min_size=size, max_size=size or 4)

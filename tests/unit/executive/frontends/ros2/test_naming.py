@@ -11,8 +11,8 @@ from executive.frontends.ros2.naming import (
     Endpoint,
     Node,
     Qos,
-    namespace_of,
 )
+from executive.frontends.service.ros2_plan import namespace_of
 
 STRING = (
     "std_msgs::msg::dds_::String_/"
