@@ -7,6 +7,7 @@ import importlib
 import importlib.metadata
 import os
 import shutil
+import socket
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -20,12 +21,13 @@ from robot.errors import ConfigError, RobotError
 from robot.exit_status import ExitStatus
 
 MIN_FREE_MB = 200
+ROUTER_S = 0.5
 EGL_PACKAGES = "sudo apt install libegl1 libgl1-mesa-dri libopengl0"
 LIBRARIES = {
     "mujoco": "mujoco", "daqp": "daqp", "ompl": "ompl", "ruckig": "ruckig",
     "py_trees": "py-trees", "msgspec": "msgspec", "zenoh": "eclipse-zenoh", "numpy": "numpy",
     "scipy": "scipy", "typer": "typer", "rich": "rich",
-    "pocketsphinx": "pocketsphinx",
+    "pocketsphinx": "pocketsphinx", "xxhash": "xxhash",
     "can": "python-can", "yaml": "pyyaml", "rapidfuzz": "rapidfuzz", "symspellpy": "symspellpy",
 }  # fmt: skip
 """Module to distribution."""
@@ -67,7 +69,7 @@ def examine(run_folder: Path = Path(), *, robot: str = "juno") -> list[Finding]:
     """Look at everything; never raises."""
     checks: list[Callable[[], Finding]] = [
         _python, _names, _libraries, lambda: _robot(robot), _worlds, _egl, _display, _cores,
-        _shared_memory, _microphone, _voice, _model_keys,
+        _shared_memory, _microphone, _voice, _model_keys, _ros2,
     ]  # fmt: skip
     return [*(check() for check in checks), _disk(run_folder)]
 
@@ -220,6 +222,22 @@ def _shared_memory() -> Finding:
     place = made.path.parent
     note = "" if place == private_folder.IN_MEMORY else " (/dev/shm cannot be used)"
     return Finding(name="shared memory", verdict="ok", text=f"{place}{note}")
+
+
+def _ros2() -> Finding:
+    """Whether there is a router on this machine by which ROS 2 machines could see a robot."""
+    router = ("127.0.0.1", 7447)
+    try:
+        socket.create_connection(router, timeout=ROUTER_S).close()
+    except OSError:
+        return Finding(
+            name="ROS 2", verdict="optional",
+            text="nothing listens at 127.0.0.1:7447: `up --ros2` waits for a router",
+            cure="ros2 run rmw_zenoh_cpp rmw_zenohd, or --ros2-router tcp/HOST:7447 (docs/ros2.md)",
+        )  # fmt: skip
+    return Finding(
+        name="ROS 2", verdict="ok", text="something listens at 127.0.0.1:7447, where its router is"
+    )
 
 
 def _disk(folder: Path) -> Finding:

@@ -26,6 +26,7 @@ from executive.engine.jobs import UNLIMITED, Limits
 from executive.engine.motion_watch import MotionWatch
 from executive.engine.recorder import Recorder
 from executive.engine.sensed_watch import SensedWatch
+from executive.engine.teleoperation import Teleoperation
 from executive.engine.told_planner import ToldPlanner
 from executive.journal import motion, sensed
 from executive.journal.files import BackgroundFile, LineFile, Lines, Nowhere
@@ -64,9 +65,11 @@ class Session(Closing):
         journal: of the run.
         faults: lets things go wrong on purpose.
         executive: at work.
+        teleoperation: by which it is driven by hand while the executive has nothing to do.
     """
 
     executive: Executive
+    teleoperation: Teleoperation
 
     def __init__(
         self,
@@ -136,6 +139,7 @@ class Session(Closing):
             context, self.journal, rates_hz=RATES_HZ, jobs_before=jobs_before
         )
         self.executive.attended = self._attended
+        self.teleoperation = Teleoperation(self.executive, context)
         self._recorder = Recorder(self.executive)
         after_s = motion.last_s(self.setup.folder) if self.setup.folder else -math.inf
         self._mover = MotionWatch(self.executive.board, context.link, self._motion, after_s=after_s)
@@ -202,6 +206,7 @@ class Session(Closing):
         )
 
     def _tell(self) -> None:
+        self.teleoperation.update(self.now_s)
         self._recorder.update()
         self._mover.update(self.now_s)
         self._watcher.update(self.now_s)

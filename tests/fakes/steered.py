@@ -16,6 +16,18 @@ from robot.failures import Failure
 from tests.fakes.waiting import HANG_S
 
 
+class Teleoperated:
+    """Takes velocities, and says why they are not walked if it is told to."""
+
+    def __init__(self):
+        self.told: list[tuple[float, float, float]] = []
+        self.answer = ""
+
+    def tell(self, velocity, now_s):
+        self.told.append(velocity)
+        return self.answer
+
+
 class Robot:
     """A robot with jobs, of which none goes on by itself."""
 
@@ -26,6 +38,7 @@ class Robot:
         self.ended_before = ()
         self.lost: Failure | None = None
         self.executive = Executive(self.jobs)
+        self.session = SimpleNamespace(teleoperation=Teleoperated(), now_s=0.0)
 
     @property
     def busy(self):
@@ -109,6 +122,12 @@ class Told:
                 self.out("Here.")
             case _:
                 self.begin(text)
+
+    def hear(self, text, *, stops):
+        self.line(text, stops=stops)
+
+    def help(self, text):
+        return False
 
     def begin(self, text):
         number = len(self.robot.jobs) + 1

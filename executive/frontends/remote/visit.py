@@ -208,6 +208,7 @@ class Visit:
             )
             self._hearing = asyncio.create_task(self._hear(told))
         if isinstance(asked, m.Say):
+            asked = msgspec.structs.replace(asked, begun_s=None)  # of a clock that is not this one
             self._tie.lines.add((self, asked.number))
         self._robot.write(m.line_of(asked))
         await self._robot.drain()

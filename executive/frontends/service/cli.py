@@ -32,6 +32,8 @@ def up(options: Up) -> None:
 
       humanoid up --name second --world bench
 
+      humanoid up --ros2             (ROS 2 machines see and command it: docs/ros2.md)
+
     It is the prompt without a terminal: what is said is one conversation, sentences queue up.
     Ctrl-C, SIGTERM and `humanoid down` bring the robot to a stand and end it.
     """

@@ -16,6 +16,7 @@ from typing import NamedTuple
 import msgspec
 
 from executive.engine.jobs import OVER
+from executive.engine.teleoperation import Velocity
 from executive.frontends.line_server import Client, LineServer, is_own
 from executive.frontends.output import as_mistake
 from executive.frontends.prompt.shell import Shell
@@ -246,6 +247,14 @@ class Counter(Closing):
                 self._shell.command("goals")
                 self._end(client, asked.number, ExitStatus.DONE, standing=self._standing())
                 return
+            case m.Drive():
+                velocity = Velocity(asked.forward_m_s, asked.left_m_s, asked.turn_rad_s)
+                session = self._shell.robot.session
+                refused = session.teleoperation.tell(velocity, session.now_s)
+                if refused:
+                    self._say(f"Not driven: {refused}.")
+                self._end(client, asked.number, ExitStatus.FAILED if refused else ExitStatus.DONE)
+                return
             case m.Await(jobs=jobs):
                 self._wait(client, asked.number, jobs)
                 return
@@ -311,7 +320,10 @@ class Counter(Closing):
         refused, open_before = shell.refused, shell.asked
         status = ExitStatus.DONE
         try:
-            shell.line(asked.text, stops=stops)
+            if not asked.spoken:
+                shell.line(asked.text, stops=stops)
+            elif not shell.help(asked.text):
+                shell.hear(asked.text, stops=stops)
         except Exception as error:  # in this software: the robot goes on
             self._say(as_mistake(error))
             status = ExitStatus.BROKEN

@@ -23,8 +23,10 @@ from executive.frontends.prompt.cli import Begun, conversation, told
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.service import place as places
 from executive.frontends.service.counter import Counter
-from executive.frontends.service.options import Up
+from executive.frontends.service.options import Ros2, Up
 from executive.frontends.service.place import Place, Running
+from executive.frontends.service.ros2_beside import bridged, check
+from executive.frontends.service.ros2_plan import Plan, namespace_of
 from executive.frontends.service.telling import Log
 from executive.journal.journal import Event
 from robot.bringup.mailbox import Handle
@@ -37,7 +39,7 @@ REST_S = 15.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Served(Begun):
+class Served(Begun, Ros2):
     """What a service's executive is told: the options, and where it can be reached."""
 
     name: str
@@ -51,10 +53,13 @@ def up(options: Up) -> int:
     Raises:
         RobotError: the name is taken, a file is wrong (ConfigError), or a part does not start.
     """
+    if options.ros2:
+        check(options.ros2_router, fast=options.fast)
     with places.claimed(options.name) as place:
         if options.detach:
             _write_into(place.folder / places.LOG)
-        fields = {name: getattr(options, name) for name in Prompt.__dataclass_fields__}
+        names = (*Prompt.__dataclass_fields__, *Ros2.__dataclass_fields__)
+        fields = {name: getattr(options, name) for name in names}
         served = Served(**fields, name=options.name, place=place.folder, pid=os.getpid())
         if options.fast:
             return here(in_executive, served)
@@ -104,7 +109,10 @@ def _attend(shell: Shell, place: Place, options: Served, handle: Handle | None) 
     before = interrupts.pressed
     log = Log(shell.folder)
     try:
-        with Counter(shell, place=place, running=running, log=log) as counter:
+        with (
+            Counter(shell, place=place, running=running, log=log) as counter,
+            bridged(_plan(options, place, handle), logs=shell.folder, out=shell.out),
+        ):
             shell.robot.session.journal.listen(partial(_pass_on, counter))
             shell.out(greeting(options))
             tell_manager("READY=1")
@@ -119,6 +127,22 @@ def _attend(shell: Shell, place: Place, options: Served, handle: Handle | None) 
     finally:
         log.close()
     return ExitStatus.DONE
+
+
+def _plan(options: Served, place: Place, handle: Handle | None) -> Plan | None:
+    """What the bridge to ROS 2 is told, if there is to be one."""
+    if not options.ros2 or handle is None:
+        return None
+    return Plan(
+        router=options.ros2_router,
+        domain=options.ros2_domain,
+        namespace="" if options.name == places.DEFAULT_NAME else namespace_of(options.name),
+        sockets=str(handle.folder),
+        name=place.name,
+        place=str(place.folder),
+        robot=options.robot,
+        pictures=options.camera or options.eyes == "camera",
+    )
 
 
 def _leave(shell: Shell) -> None:

@@ -58,18 +58,35 @@ class Say(_Request, frozen=True, kw_only=True, tag="say"):
         stops: so often the robot had been told to stop, as far as was known where the line was
             typed; a stop since then is about this line too (None: as when it arrives).
         begun_s: when it was asked for, in seconds since boot, where how often is not known.
+        spoken: it is a sentence, or an answer, and no command of the prompt.
     """
 
     text: Text
     wait: bool = False
     stops: int | None = None
     begun_s: float | None = None
+    spoken: bool = False
 
 
 class Halt(_Request, frozen=True, kw_only=True, tag="halt"):
     """A line that may be a cry to halt, heard before it is a line: it acts at once."""
 
     text: Text
+
+
+Rate = Annotated[float, Meta(ge=-100.0, le=100.0)]
+"""More than any robot walks [m/s] or turns [rad/s]."""
+
+
+class Drive(_Request, frozen=True, kw_only=True, tag="drive"):
+    """Walk at a velocity for half a second, if nothing else walks (`executive.engine`).
+
+    What comes of it is `Words` that say why it does not, if it does not.
+    """
+
+    forward_m_s: Rate = 0.0
+    left_m_s: Rate = 0.0
+    turn_rad_s: Rate = 0.0
 
 
 class Await(_Request, frozen=True, kw_only=True, tag="await"):
@@ -97,7 +114,7 @@ class Down(_Request, frozen=True, kw_only=True, tag="down"):
     """Come to a stand, and end."""
 
 
-Request = Status | Queue | Press | Say | Halt | Await | Watch | Down
+Request = Status | Queue | Press | Say | Halt | Drive | Await | Watch | Down
 
 
 class AnyTold(msgspec.Struct, frozen=True, kw_only=True, tag_field="tell"):

@@ -93,6 +93,31 @@ def test_every_request_has_one_end(counter, told, place):
         assert ask(place, request)[0].number == 1, kind
 
 
+def test_a_velocity_is_walked_or_it_is_said_why_not(counter, told, place):
+    teleoperation = told.robot.session.teleoperation
+    asked = m.Drive(forward_m_s=0.2, turn_rad_s=-0.1)
+    assert ask(place, asked)[0].status == ExitStatus.DONE
+    assert teleoperation.told == [(0.2, 0.0, -0.1)]
+    teleoperation.answer = "a task is under way: pause it first"
+    ended, words = ask(place, asked)
+    assert (ended.status, words) == (ExitStatus.FAILED, [f"Not driven: {teleoperation.answer}."])
+    with pytest.raises(Cut), Connection(place) as connection:  # more than any robot does
+        connection.ask(msgspec.structs.replace(asked, left_m_s=1e9), lambda _: None)
+    assert len(teleoperation.told) == 2
+
+
+def test_what_is_spoken_is_a_sentence_or_an_answer_and_no_command(counter, told, place):
+    heard: list[str] = []
+    told.hear = lambda text, stops: heard.append(text)
+    told.help = lambda text: text == "continue"
+    told.line = None
+    for text in ("dump /tmp/x", "continue", "wave"):
+        ask(place, m.Say(text=text, spoken=True))
+    assert heard == ["dump /tmp/x", "wave"]
+    ask(place, m.Say(text="stop", spoken=True))  # which is a stop however it is said
+    assert told.did == ["stop"]
+
+
 def test_a_stop_does_not_wait_for_a_line_that_is_worked_off(counter, told, place):
     told.go_on.clear()
     with Connection(place) as busy, Connection(place) as other:
