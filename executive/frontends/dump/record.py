@@ -60,6 +60,10 @@ def record(run: str | None, output: Path | None) -> int:
         if live:
             say(f"Recording {folder.name}; Ctrl-C ends the recording, not the run.", err=True)
         _follow(folder, file, ending, is_over=lambda: not journal.is_written(folder), tell=tell)
+    if not path.stat().st_size:
+        path.unlink()
+        say("Nothing was recorded: it ended before anything was read that makes sense.")
+        return ExitStatus.FAILED
     say(f"Done: {path}")
     return ExitStatus.DONE
 

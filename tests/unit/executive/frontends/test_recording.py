@@ -19,6 +19,7 @@ from executive.frontends.ending import Ending
 from executive.journal import journal, motion
 from executive.journal.motion import Moment
 from robot.errors import ConfigError
+from robot.exit_status import ExitStatus
 from tests.fakes.waiting import HANG_S
 
 CUP = (1.0, 0.5, 0.8, 1.0, 0.0, 0.0, 0.0)
@@ -159,8 +160,9 @@ def test_what_does_not_heed_the_first_signal_is_left_by_the_second(folder, monke
             signal.raise_signal(signal.SIGINT)
 
     monkeypatch.setattr(record, "_follow", heedless)
-    record.record(str(folder), None)
+    assert record.record(str(folder), None) == ExitStatus.FAILED
     assert left
+    assert not (folder / "recorded.mcap").exists()  # nothing was written
 
 
 def test_a_recorder_whose_parent_is_gone_ends_with_a_whole_file(folder):

@@ -11,7 +11,7 @@ from intents.dialogue import Dialogue
 from tests.fakes.puppet_shell import puppet_shell
 from tests.fakes.waiting import eventually
 
-LONG = "go to the table and " * 800
+LONG = "go to the table and " * 50
 
 
 def read_nothing(*_: object) -> None:
@@ -63,7 +63,7 @@ def test_lines_of_a_page_that_wait_do_not_keep_a_robot_up(tmp_path: Path, monkey
     with puppet_shell(tmp_path, said) as shell:
         with Desk(shell, folder=tmp_path, private=private) as desk, shell._one_line:
             desk._heed(Order(line="walk to the shelf"))
-            for _ in range(20):
+            for _ in range(5):
                 desk._heed(Order(line=LONG))
             shell.stop("the robot is to be down")
             shell.leave()
