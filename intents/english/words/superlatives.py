@@ -46,4 +46,4 @@ def _formed(word: str) -> str:
         return ""
     stem = word.removesuffix(_ENDING)
     stems = (stem, f"{stem}e", stem[:-1], f"{stem[:-1]}y" if stem.endswith("i") else stem)
-    return next(filter(None, map(_meant, stems)), "")
+    return next((meant for meant in (_meant(one) for one in stems) if meant), "")
