@@ -56,8 +56,8 @@ def words(said: str, *before: str) -> str:
             "for every red cup: put it on the shelf, then put the blue cup on the upper shelf",
         ),
         (
-            "put the cups on the shelf, the red one on the upper shelf and the blue one on the lower "
-            "shelf",
+            "put the cups on the shelf, the red one on the upper shelf and the blue one on the "
+            "lower shelf",
             "put the red cup on the upper shelf, then put the blue cup on the lower shelf",
         ),
     ],
