@@ -22,9 +22,8 @@ from intents.english.corrections import named_retraction_end, retraction_end
 from intents.english.phrases.complements import connector_end, told_later
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.referents import to_place
-from intents.english.phrases.times import tells_when
+from intents.english.phrases.times import ARRIVED, tells_when
 from intents.english.reading import Found, Sentence, clause_by_itself
-from intents.english.readings.time_clauses import arrived
 from intents.english.repeating import repeated
 from intents.english.sequences import sequence
 from intents.english.substitution import substitute
@@ -205,7 +204,7 @@ def before_or_after(sentence: Sentence, at: int, last: list[Goal]) -> Found | No
     "Only once you have ...", "not before you have ..." are after; "but before that ..." is before.
     """
     text = sentence.text
-    there = arrived(sentence, at) if last else None
+    there = _arrival(sentence, at) if last else None
     if there is not None:
         way = [goal for goal in there[0] if goal not in sentence.before]
         return [*way, *last], there[1]
@@ -221,6 +220,17 @@ def before_or_after(sentence: Sentence, at: int, last: list[Goal]) -> Found | No
         return None
     other, end = clause_by_itself(sentence, skip_openings(text, start))
     return ([*other, *last] if after else [*last, *other]), end
+
+
+def _arrival(sentence: Sentence, at: int) -> Found | None:
+    """Wave *when you arrive at the counter*: the way there."""
+    if not sentence.text.phrase_end(ARRIVED, at):
+        return None
+    try:
+        goals, end = clause_by_itself(sentence, at)
+    except ReadingError:
+        return None
+    return (goals, end) if len(goals) == 1 and isinstance(goals[0], GoTo) else None
 
 
 _AFTER = dict.fromkeys(

@@ -51,7 +51,7 @@ def test_an_emergency_stop_is_shown_as_it_is_while_time_stands_still(tmp_path):
         shell.line("estop")
         assert eventually(lambda: "emergency stop" in robot.view.unwell)
         shell.line("estop release")
-        shell.line("nod")  # is refused, and the tick that refuses it sees the stop
+        robot.submit(shell.understand("nod"))  # is refused, and the tick that does sees the stop
         robot.wait()
         assert robot.executive.board.read(HEALTH).failure is not None
         shell.line("estop reset")
