@@ -142,6 +142,8 @@ _UNMISTAKABLE = re.compile(
     r"^(?:not|no) (?:a |one |another )|^no further|enough$|your horses$|hold (?:your )?fire"
 )
 """What is said to nobody but who does something."""
+_PACE = re.compile(r"(?:slower|slow down)\b")
+"""What is about how fast, and asks for no stop of who does nothing."""
 _CRIES = tuple(re.compile(pattern) for pattern in _PATTERNS)
 _EXCLAIMED = re.compile(r"^\W*(?:help|fire|hey|oi|robot|danger|down|back)\s*!", re.IGNORECASE)
 """With its sign of exclamation a cry; without it, a word that commands begin with."""
@@ -187,7 +189,9 @@ def is_insistent(text: str) -> bool:
     if not is_halt(text) or besides(text):
         return False
     clauses = [found for one in _CLAUSE.split(bare(text)) if (found := _words_of(one))]
-    cries = [one for one in clauses if _is_cry(one)]
+    cries = [one for one in clauses if _is_cry(one) and not _PACE.match(" ".join(one))]
+    if not cries:
+        return False
     plain = any(_UNMISTAKABLE.search(" ".join(one)) for one in cries)
     return plain or "!" in text or len(cries) > 1 or any(_once(one) != one for one in cries)
 

@@ -33,7 +33,7 @@ def invite(
         str, typer.Option("--at", help="Where this machine is reached from theirs: HOST[:PORT].")
     ],
     out: Annotated[
-        Path | None, typer.Option("--out", help="The file. [default: NAME.invitation]")
+        Path | None, typer.Option("--out", help="The file; else NAME.invitation.")
     ] = None,
     days: Annotated[int, typer.Option("--days", min=1, max=3650, help="How long it is good.")] = 30,
 ) -> None:

@@ -25,6 +25,7 @@ class Tie:
     lines: set[tuple[object, int]] = field(default_factory=set)
     _beating: int = 0
     _last_s: float = 0.0
+    _is_broken: bool = False
 
     @property
     def holds(self) -> bool:
@@ -33,6 +34,7 @@ class Tie:
 
     def begin(self, now_s: float) -> None:
         """A connection has begun to beat."""
+        self._is_broken = self._is_broken and self.holds
         self._beating += 1
         self._last_s = now_s
 
@@ -40,9 +42,15 @@ class Tie:
         """A beat has come."""
         self._last_s = now_s
 
-    def end(self) -> None:
-        """A connection that beat has ended."""
+    def end(self, *, left: bool) -> None:
+        """A connection that beat has ended; `left`: on purpose."""
         self._beating -= 1
+        self._is_broken |= not left
+
+    @property
+    def is_lost(self) -> bool:
+        """Whether all connections have ended, and not all on purpose, in whatever order."""
+        return not self.holds and self._is_broken
 
     def is_silent(self, now_s: float) -> bool:
         """Whether beats that should come did not for too long."""

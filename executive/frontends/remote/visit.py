@@ -81,7 +81,7 @@ class Visit:
         self._hearing: asyncio.Task[None] | None = None
         self._heeding: asyncio.Task[None] | None = None
         self._pressing: set[asyncio.Task[None]] = set()
-        self._beats = self._bye = self._is_gone = False
+        self._beats = self._bye = self._is_gone = self._is_ended = False
         self._looked_s = self._second_s = self.heard_s
         self._lines = 0
 
@@ -92,6 +92,7 @@ class Visit:
 
     def end(self) -> None:
         """Let it go."""
+        self._is_ended = True
         if self._heeding is not None:
             self._heeding.cancel()
 
@@ -119,13 +120,11 @@ class Visit:
     async def _leave(self) -> None:
         if not self._beats:
             return
-        self._tie.end()
-        if self._tie.holds:
-            return
-        if self._bye:
-            self._tie.jobs.clear()  # they go on, as those of a terminal that is left
-        else:
+        self._tie.end(left=self._bye or self._is_ended)
+        if self._tie.is_lost:
             await self._gate.lose(self._tie)
+        elif not self._tie.holds:
+            self._tie.jobs.clear()  # they go on, as those of a terminal that is left
 
     async def _heed(self) -> None:
         """What is asked, line by line."""

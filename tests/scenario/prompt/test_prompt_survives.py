@@ -67,7 +67,7 @@ def test_what_the_robot_was_told_holds_for_the_executive_that_takes_over(tmp_pat
         assert terminal.shows("Emergency stop.")
         _kill_and_come_back(terminal)
         terminal.enter("nod")
-        assert terminal.shows("Failed (2): nod: the operator pressed the emergency stop")
+        assert terminal.shows("The emergency stop is on, and nothing moves")
         terminal.press(CTRL_D)
         assert eventually(lambda: terminal.process.poll() is not None)
     events = read(run)

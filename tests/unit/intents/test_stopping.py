@@ -61,7 +61,7 @@ def test_no_text_takes_long(text: str) -> None:
         began = time.perf_counter()
         is_stop(text)
         took_s.append(time.perf_counter() - began)
-    assert min(took_s) < 0.005
+    assert min(took_s) < 0.02  # what grows with the square takes seconds; machines differ
 
 
 HIDDEN = (

@@ -17,7 +17,7 @@ VALUES = {
     "delay_s": "0.05",
     "by_m": "[0.3,0]",
 }
-OTHERWISE = {"move": {"by_m": "[0.3,0,0]"}}
+OTHERWISE = {"move": {"by_m": "[0.3,0,0]"}, "kidnap": {"by_m": "[0.3,0]"}}
 """Faults that want one of two keys."""
 
 

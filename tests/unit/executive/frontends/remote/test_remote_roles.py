@@ -22,7 +22,7 @@ FOR_NOBODY = (
 )  # fmt: skip
 ORDERS = (
     m.Say(text="go to the table"), m.Say(text="resume"), m.Press(button="resume"),
-    m.Press(button="cancel"),
+    m.Press(button="cancel"), m.Drive(forward_m_s=0.1),
 )  # fmt: skip
 LOOKS = (m.Queue(), m.Watch(views=True), m.Await(jobs=(1,)))
 
