@@ -29,7 +29,7 @@ def test_no_string_raises(text: str) -> None:
     assert isinstance(parse(text, WORKSHOP), Goals | Question | Refusal)
 
 
-@settings(max_examples=200)
+@settings(max_examples=500)
 @given(st.lists(st.sampled_from(WORDS), max_size=16).map(" ".join))
 def test_no_salad_of_known_words_raises_and_goals_are_valid(text: str) -> None:
     outcome, context = hear(text, WORKSHOP)
