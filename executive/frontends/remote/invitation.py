@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import os
 import ssl
-from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -96,8 +95,7 @@ def load_chain(context: ssl.SSLContext, *, certificate: str, key: str) -> None:
     """
     file = os.memfd_create("certificate", os.MFD_CLOEXEC)
     try:
-        with suppress(BlockingIOError):
-            os.write(file, f"{certificate}\n{key}\n".encode())
+        os.write(file, f"{certificate}\n{key}\n".encode())
         context.load_cert_chain(f"/proc/self/fd/{file}", password=lambda: "")
     finally:
         os.close(file)
