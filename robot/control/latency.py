@@ -2,7 +2,10 @@
 
 A command is in force some time after it was computed: buses, drivers and firmware each keep it for
 a while. The torques that motors measure tell for how long, with nothing to calibrate: of the last
-commands, the one that explains how the torques change is the one in force.
+commands, the one that explains how the torques change is the one in force. A motor closes its loop
+on where its joint is by then, and gives no more than it can; so does what it is held against. (Held
+against torques as they were computed from older joints, a body that pushes itself off the floor at
+the limits of its motors looked 10 ms late, and swung itself to pieces once it stood.)
 """
 
 from __future__ import annotations
@@ -41,27 +44,30 @@ class Latency:
         """
         self.delay_s = 0.0
         rows, self._period_s = LONGEST_PERIODS + 1, period_s
-        self._inverse = 1.0 / torque_limit_nm
-        self._told: Array = np.zeros((rows, len(torque_limit_nm)))
+        self._rows = rows
+        self._limit_nm, self._inverse = torque_limit_nm, 1.0 / torque_limit_nm
+        # Feedforward, kp, kd of what was told; rows are kept twice: any window of ages is a view.
+        self._told: Array = np.zeros((3, 2 * rows, len(torque_limit_nm)))
+        self._last: MotorState | None = None
         self._error: Array | None = None
         self._row = 0
         self._periods = 0
-        self._ages = [(row - np.arange(rows)) % rows for row in range(rows)]
         self._against: Array = np.zeros(rows)
         self._command: MotorCommand | None = None
 
-    def told(self, command: MotorCommand, state: MotorState) -> None:
-        """What is sent in this period, for that state; a command may be sent again."""
-        self._row = (self._row + 1) % len(self._told)
+    def told(self, command: MotorCommand) -> None:
+        """What is sent in this period; a command may be sent again."""
+        before, self._row = self._row, (self._row + 1) % self._rows
+        told = self._told[:, self._row]
         if command is self._command:
-            self._told[self._row] = self._told[self._row - 1]
-            return
-        self._command = command
-        torque = self._told[self._row]
-        np.subtract(command.q_des, state.q, out=torque)
-        torque *= command.kp
-        torque += command.kd * (command.qd_des - state.qd)
-        torque += command.tau_ff
+            told[:] = self._told[:, before]
+        else:
+            self._command = command
+            np.multiply(command.kp, command.q_des, out=told[0])
+            told[0] += command.kd * command.qd_des
+            told[0] += command.tau_ff
+            told[1], told[2] = command.kp, command.kd
+        self._told[:, self._row + self._rows] = told
 
     def felt(self, state: MotorState) -> None:
         """What the motors measured after that, before the next command is told.
@@ -71,9 +77,10 @@ class Latency:
         """
         self._periods += 1
         look = self._periods % LOOK_EVERY
-        if look > 1:
+        last, self._last = self._last, state
+        if look > 1 or last is None:
             return
-        error = (state.tau - self._told[self._ages[self._row]]) * self._inverse
+        error = (state.tau - self._owed(last, state)) * self._inverse
         before, self._error = self._error, error
         if look == 0 or before is None or not math.isfinite(float(error[0].sum())):
             return
@@ -85,3 +92,13 @@ class Latency:
         best = int(against.argmin())
         if float(against[0]) > CLEAR or best == 0:
             self.delay_s = best * self._period_s
+
+    def _owed(self, last: MotorState, state: MotorState) -> Array:
+        """What motors give under each age of command between two measurements [N m], (ages, n)."""
+        newest = self._row + self._rows
+        feedforward, kp, kd = self._told[:, newest : newest - self._rows : -1]
+        torque = kp * (-0.5 * (last.q + state.q))
+        torque += kd * (-0.5 * (last.qd + state.qd))
+        torque += feedforward
+        np.minimum(torque, self._limit_nm, out=torque)
+        return np.maximum(torque, -self._limit_nm, out=torque)

@@ -271,7 +271,7 @@ class ControlLoop:
             self._command.stamp_s = state.stamp_s
         self._ticks_to_solve -= 1.0
         self._command = self.limits.apply(self._command, state)
-        self.latency.told(self._command, state)
+        self.latency.told(self._command)
         if self.limits.tripped and self._getting_up is not None:
             self.limits.reset()  # the floor can twist a joint; it has been let go for a moment
             self._getting_up.miss()

@@ -29,7 +29,7 @@ def walked(latency, late_periods, *, seconds=2.0, seed=0, noise=0.005):
         if k % 5 in (0, 2):
             torque = command.tau_ff + 2.0 * rng.standard_normal(COUNT)
             command = MotorCommand(now.stamp_s, ZERO, ZERO, torque, ZERO, ZERO)
-        latency.told(command, now)
+        latency.told(command)
         sent.append(command.tau_ff)
 
 
@@ -48,6 +48,26 @@ def test_one_that_changes_is_found_anew():
     assert latency.delay_s == 0.0
 
 
+@pytest.mark.parametrize("late_periods", [0, 4])
+def test_joints_that_turn_fast_and_motors_at_their_limits_mislead_nobody(late_periods):
+    """As in getting up: stiff joints are told far away, lag, and are held by what they can give."""
+    latency = Latency(LIMIT_NM, PERIOD_S)
+    stiff, damped = np.full(COUNT, 300.0), np.full(COUNT, 5.0)
+    commands = [MotorCommand(0.0, ZERO, ZERO, ZERO, ZERO, damped)] * (LONGEST_PERIODS + 2)
+    phase, q, qd, tau = np.linspace(0.0, 2.0, COUNT), ZERO, ZERO, ZERO
+    for k in range(2500):
+        now = MotorState(k * PERIOD_S, q, qd, tau, ZERO, ZERO, False, k * PERIOD_S)
+        latency.felt(now)
+        goal = np.sin(6.0 * now.stamp_s + phase) + 0.3 * np.sign(np.sin(9.0 * now.stamp_s + phase))
+        commands.append(MotorCommand(now.stamp_s, goal, ZERO, ZERO, stiff, damped))
+        latency.told(commands[-1])
+        force = commands[-1 - late_periods]
+        tau = np.clip(force.kp * (force.q_des - q) - force.kd * qd, -LIMIT_NM, LIMIT_NM)
+        qd = qd + PERIOD_S * tau / 0.4
+        q = q + PERIOD_S * qd
+    assert latency.delay_s == pytest.approx(late_periods * PERIOD_S)
+
+
 def test_noise_alone_is_no_delay():
     latency = Latency(LIMIT_NM, PERIOD_S)
     rng = np.random.default_rng(3)
@@ -55,7 +75,7 @@ def test_noise_alone_is_no_delay():
     for k in range(5000):
         now = state(0.005 * LIMIT_NM * rng.standard_normal(COUNT), k * PERIOD_S)
         latency.felt(now)
-        latency.told(command, now)
+        latency.told(command)
     assert latency.delay_s == 0.0
 
 
@@ -64,5 +84,5 @@ def test_motors_that_measure_no_torque_tell_nothing():
     for k in range(100):
         now = state(np.full(COUNT, np.nan), k * PERIOD_S)
         latency.felt(now)
-        latency.told(MotorCommand(0.0, ZERO, ZERO, ZERO + k, ZERO, ZERO), now)
+        latency.told(MotorCommand(0.0, ZERO, ZERO, ZERO + k, ZERO, ZERO))
     assert latency.delay_s == 0.0
