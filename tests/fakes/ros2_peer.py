@@ -15,11 +15,19 @@ from collections import deque
 from contextlib import contextmanager
 
 import zenoh
-from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from zenoh.ext import HistoryConfig, RecoveryConfig, declare_advanced_subscriber
 
 STORE = get_typestore(Stores.ROS2_JAZZY)
 EMPTY = "std_msgs/msg/Empty"
+ASK, ANSWER = "nav_msgs/msg/GetPlan_Request", "nav_msgs/msg/GetPlan_Response"
+"""As nav_msgs/srv/GetPlan.srv has them."""
+STORE.register(
+    get_types_from_msg(
+        "geometry_msgs/PoseStamped start\ngeometry_msgs/PoseStamped goal\nfloat32 tolerance", ASK
+    )
+)
+STORE.register(get_types_from_msg("nav_msgs/Path plan", ANSWER))
 
 
 def _config(mode, *, listen=(), connect=()):
@@ -60,8 +68,8 @@ class Token:
             assert len(parts) == 13 and all(parts), text
             self.topic = parts[9].replace("%", "/")
             self.kind, self.hash, self.qos = parts[10:]
-            package, name = self.kind.split("::msg::dds_::")
-            self.interface = f"{package}/msg/{name.removesuffix('_')}"
+            package, what, _, name = self.kind.split("::")
+            self.interface = f"{package}/{what}/{name.removesuffix('_')}"
             self.key = f"{self.domain}{self.topic}/{self.kind}/{self.hash}"
             reliability, durability, *_ = self.qos.split(":")
             self.transient_local = durability == "1"
@@ -108,6 +116,16 @@ class Peer:
         for number in range(count):
             attachment = struct.pack("<qqB", number + 1, time.time_ns(), 16) + bytes(16)
             self._session.put(key, data, attachment=attachment)
+
+    def ask(self, token, request, *, number=1, attached=True):
+        """Ask a service as a node of rmw_zenoh does; the channel of what is answered."""
+        data = request if isinstance(request, bytes) else written(ASK, request)
+        attachment = struct.pack("<qqB", number, time.time_ns(), 16) + bytes(range(16))
+        return self._session.get(
+            token.key, payload=data, attachment=attachment if attached else None,
+            target=zenoh.QueryTarget.ALL_COMPLETE, consolidation=zenoh.ConsolidationMode.NONE,
+            timeout=20.0,
+        )  # fmt: skip
 
     def twist(self, forward=0.0, left=0.0, turn=0.0):
         vector, twist = STORE.types["geometry_msgs/msg/Vector3"], "geometry_msgs/msg/Twist"

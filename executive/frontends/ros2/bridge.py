@@ -17,6 +17,7 @@ from executive.frontends.ros2.cdr import CdrError, decode
 from executive.frontends.ros2.link_frames import LinkFrames
 from executive.frontends.ros2.network import Network, Publisher
 from executive.frontends.ros2.orders import Orders
+from executive.frontends.ros2.plans import Plans
 from executive.frontends.ros2.report import diagnosed, status
 from executive.frontends.ros2.stamps import Stamps
 from executive.frontends.ros2.topics import Topic
@@ -24,6 +25,7 @@ from robot.bus import topics as own
 from robot.bus.bus import Bus, Subscription
 from robot.model.description import RobotDescription
 from robot.model.urdf import urdf
+from robot.planning.worker import Planner
 
 RATE_HZ = 50.0
 STATUS_S, REPORT_S = 0.2, 1.0
@@ -35,7 +37,14 @@ class Bridge:
     """One round after another, each as long as what there is to send."""
 
     def __init__(
-        self, bus: Bus, network: Network, orders: Orders, robot: RobotDescription, *, pictures: bool
+        self,
+        bus: Bus,
+        network: Network,
+        orders: Orders,
+        robot: RobotDescription,
+        *,
+        planner: Callable[[], Planner],
+        pictures: bool,
     ) -> None:
         """Publish what never changes, and subscribe.
 
@@ -44,6 +53,7 @@ class Bridge:
             network: of the ROS 2 machines.
             orders: where what they want goes.
             robot: that it is about.
+            planner: makes one for it, when a way is asked for.
             pictures: whether its camera is looked through.
 
         Raises:
@@ -69,6 +79,9 @@ class Bridge:
             network.subscription(one.name, one.interface, one.qos)
             for one in (topics.GOAL, topics.CMD_VEL)
         )
+        self._map, self._own_map = bus.subscribe(own.ORACLE_MAP), bus.subscribe(own.WORLD_MAP)
+        asked = network.service(topics.PLAN.name, topics.PLAN.interface, topics.PLAN.qos)
+        self._plans = Plans(asked, planner, robot)
         self._last_status: dict[str, Any] = {}
         self._status_s = self._report_s = -REPORT_S
         self._publish(topics.DESCRIPTION, {"data": text})
@@ -79,6 +92,9 @@ class Bridge:
         """Take what came, send what is new; `now_s` is the wall's, of any origin."""
         self._take_goals()
         self._take_velocity()
+        self._plans.round(
+            now_s, self._body.latest, self._world.latest, self._own_map.latest or self._map.latest
+        )
         self._send_body()
         self._send_sensors()
         if now_s - self._status_s >= STATUS_S:
@@ -159,7 +175,8 @@ class Bridge:
             self._publish(topics.STATUS, {"data": msgspec.json.encode(found).decode()})
 
     def _send_report(self) -> None:
-        rows = diagnosed(self._orders, self._body.latest, self._timing.latest, refused=self.refused)
+        orders, body, timing = self._orders, self._body.latest, self._timing.latest
+        rows = diagnosed(orders, body, timing, plans=self._plans, refused=self.refused)
         self._offer(topics.DIAGNOSTICS, lambda: messages.diagnostics(rows, time.time()))
 
     def _offer(self, topic: Topic, make: Callable[[], dict[str, Any]]) -> None:

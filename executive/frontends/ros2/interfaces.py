@@ -1,4 +1,4 @@
-"""The ROS 2 messages that are spoken here, as data: what is in each, in order.
+"""The ROS 2 messages and services that are spoken here, as data: what is in each, in order.
 
 Written from the public interface definitions (common_interfaces, geometry2, rcl_interfaces) of
 ROS 2 Jazzy. Constants and defaults are left out: they are no part of what travels.
@@ -7,10 +7,35 @@ ROS 2 Jazzy. Constants and defaults are left out: they are no part of what trave
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from functools import cache
 from typing import NamedTuple
 
-INTERFACES: dict[str, tuple[str, ...]] = {
+
+def service(
+    name: str, *, request: Sequence[str], response: Sequence[str]
+) -> dict[str, Sequence[str]]:
+    """A service's own type and those of its messages, as rosidl makes them of a .srv file.
+
+    The event is never sent here; the hash of the service is also of it.
+    """
+    return {
+        f"{name}_Request": request,
+        f"{name}_Response": response,
+        f"{name}_Event": (
+            "service_msgs/msg/ServiceEventInfo info",
+            f"{name}_Request[<=1] request",
+            f"{name}_Response[<=1] response",
+        ),
+        name: (
+            f"{name}_Request request_message",
+            f"{name}_Response response_message",
+            f"{name}_Event event_message",
+        ),
+    }
+
+
+INTERFACES: dict[str, Sequence[str]] = {
     "builtin_interfaces/msg/Time": ("int32 sec", "uint32 nanosec"),
     "std_msgs/msg/Empty": (),
     "std_msgs/msg/String": ("string data",),
@@ -44,6 +69,14 @@ INTERFACES: dict[str, tuple[str, ...]] = {
         "geometry_msgs/msg/Transform transform",
     ),
     "tf2_msgs/msg/TFMessage": ("geometry_msgs/msg/TransformStamped[] transforms",),
+    "geometry_msgs/msg/PoseStamped": (
+        "std_msgs/msg/Header header",
+        "geometry_msgs/msg/Pose pose",
+    ),
+    "nav_msgs/msg/Path": (
+        "std_msgs/msg/Header header",
+        "geometry_msgs/msg/PoseStamped[] poses",
+    ),
     "nav_msgs/msg/Odometry": (
         "std_msgs/msg/Header header",
         "string child_frame_id",
@@ -128,6 +161,21 @@ INTERFACES: dict[str, tuple[str, ...]] = {
         "std_msgs/msg/Header header",
         "diagnostic_msgs/msg/DiagnosticStatus[] status",
     ),
+    "service_msgs/msg/ServiceEventInfo": (
+        "uint8 event_type",
+        "builtin_interfaces/msg/Time stamp",
+        "uint8[16] client_gid",
+        "int64 sequence_number",
+    ),
+    **service(
+        "nav_msgs/srv/GetPlan",
+        request=(
+            "geometry_msgs/msg/PoseStamped start",
+            "geometry_msgs/msg/PoseStamped goal",
+            "float32 tolerance",
+        ),
+        response=("nav_msgs/msg/Path plan",),
+    ),
 }
 
 PRIMITIVES: dict[str, str] = {
@@ -136,15 +184,19 @@ PRIMITIVES: dict[str, str] = {
 }  # fmt: skip
 """Numbers, by the letter that the `struct` module has for each."""
 
-_FIELD = re.compile(r"([\w/]+)(\[(\d*)\])? (\w+)")
+_FIELD = re.compile(r"([\w/]+)(\[(<=)?(\d*)\])? (\w+)")
 
 
 class Field(NamedTuple):
-    """A part of a message: its name, what it is of, how many (None: one; 0: as many as come)."""
+    """A part of a message: its name, what it is of, how many (None: one; 0: as many as come).
+
+    `most`: of those that come, 0 where that is not bounded.
+    """
 
     name: str
     of: str
     size: int | None
+    most: int = 0
 
 
 DUMMY = Field("structure_needs_at_least_one_member", "uint8", None)
@@ -161,5 +213,7 @@ def fields(interface: str) -> tuple[Field, ...]:
 def _field(text: str) -> Field:
     match = _FIELD.fullmatch(text)
     assert match is not None, text
-    of, brackets, count, name = match.groups()
+    of, brackets, bounded, count, name = match.groups()
+    if bounded:
+        return Field(name, of, 0, most=int(count))
     return Field(name, of, None if brackets is None else int(count or 0))

@@ -6,6 +6,7 @@ import os
 import sys
 import threading
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import msgspec
@@ -20,6 +21,7 @@ from robot.bus.lifeline import Stop, tie_to_parent
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import WallClock
 from robot.model import description
+from robot.planning.process import ProcessPlanner
 
 NICE = 10
 """Of what is made and sent: the robot comes first. Stops have threads that are not so polite."""
@@ -36,7 +38,8 @@ def main(parent_pid: str) -> None:
         stop = Stop()
         with Orders(place) as orders, ZenohBus(BUS_NAME, plan.sockets) as bus:
             heed_stops(network, orders)
-            bridge = Bridge(bus, network, orders, robot, pictures=plan.pictures)
+            planner = partial(ProcessPlanner, robot)
+            bridge = Bridge(bus, network, orders, robot, planner=planner, pictures=plan.pictures)
             os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICE)
             clock = WallClock()
             due_s = clock.now_s()
@@ -44,7 +47,7 @@ def main(parent_pid: str) -> None:
                 bridge.round(clock.now_s())
                 due_s = max(due_s + 1.0 / RATE_HZ, clock.now_s())
                 clock.sleep_until(due_s)
-    os._exit(0)  # whatever still waits for an answer is not waited for
+    os._exit(0)  # whatever still waits for an answer is not waited for; a planner ends with us
 
 
 def heed_stops(network: Network, orders: Orders) -> None:

@@ -14,6 +14,7 @@ from executive.frontends.ros2.link_frames import BASE, LinkFrames
 from executive.frontends.ros2.stamps import time_of
 from robot.messages import BodyState, LidarScan, PowerState, RgbdImage, WorldState
 from robot.model.description import Lidar, RobotDescription
+from robot.planning.requests import Stance
 from robot.se3 import SE3, Vector3
 
 MAP, ODOM = "map", "odom"
@@ -78,6 +79,13 @@ def transforms(
 def still_transforms(links: LinkFrames, wall_s: float) -> Ros:
     """tf2_msgs/msg/TFMessage of what never moves."""
     return {"transforms": [_transform(*one, wall_s) for one in links.still]}
+
+
+def path(stances: Sequence[Stance], wall_s: float) -> Ros:
+    """nav_msgs/msg/Path over the floor of the map."""
+    head = header(wall_s, MAP)
+    poses = [{"header": head, "pose": _pose(SE3.from_xy_yaw(*stance))} for stance in stances]
+    return {"header": head, "poses": poses}
 
 
 def scan(lidar: LidarScan, device: Lidar, *, rate_hz: float, wall_s: float) -> Ros:

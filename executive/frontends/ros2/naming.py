@@ -17,8 +17,8 @@ import xxhash
 from executive.frontends.ros2.type_hash import type_hash
 
 SPACE = "@ros2_lv"
-Role = Literal["MP", "MS"]
-"""Of an endpoint: it publishes messages, or subscribes to them."""
+Role = Literal["MP", "MS", "SS"]
+"""Of an endpoint: it publishes messages, subscribes to them, or serves a service."""
 DEFAULT_DEPTH = 42
 """rmw_zenoh's own; a quality of service tells only what differs from its defaults."""
 _ATTACHED = struct.Struct("<qqB16s")
@@ -61,7 +61,7 @@ class Node(NamedTuple):
 
 
 class Endpoint(NamedTuple):
-    """A publisher or a subscription of a node; `number` is its own, from 1."""
+    """A publisher, a subscription or a service of a node; `number` is its own, from 1."""
 
     node: Node
     number: int
@@ -72,7 +72,7 @@ class Endpoint(NamedTuple):
 
     @property
     def key(self) -> str:
-        """Where its samples go."""
+        """Where its samples or requests go."""
         name = self.topic.strip("/")
         return f"{self.node.domain}/{name}/{dds_name(self.interface)}/{type_hash(self.interface)}"
 
@@ -92,7 +92,10 @@ class Endpoint(NamedTuple):
 
 
 class Attachment(NamedTuple):
-    """What goes with a sample: its number from 1, when it was sent [ns since 1970], by whom."""
+    """What goes with a sample: its number from 1, when it was sent [ns since 1970], by whom.
+
+    An answer has the number and the sender of what it answers.
+    """
 
     sequence: int
     stamp_ns: int
@@ -102,6 +105,14 @@ class Attachment(NamedTuple):
     def data(self) -> bytes:
         """As bytes: two 64-bit numbers, and the id behind its length."""
         return _ATTACHED.pack(self.sequence, self.stamp_ns, GID_BYTES, self.gid)
+
+    @staticmethod
+    def read(data: bytes) -> Attachment | None:
+        """What bytes say; None where they are none."""
+        if len(data) != _ATTACHED.size:
+            return None
+        sequence, stamp_ns, length, gid = _ATTACHED.unpack(data)
+        return Attachment(sequence, stamp_ns, gid) if length == GID_BYTES else None
 
 
 def dds_name(interface: str) -> str:

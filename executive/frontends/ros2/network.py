@@ -1,4 +1,4 @@
-"""A node among ROS 2 machines: publishers and subscriptions over zenoh, as rmw_zenoh has them.
+"""A node among ROS 2 machines: topics and services over zenoh, as rmw_zenoh has them.
 
 It is a client of one router and listens nowhere. What is published for a peer that does not take it
 is dropped, newest last; what comes is kept, so many of each, the newest; nothing of it waits.
@@ -49,6 +49,27 @@ class Publisher:
         self._count += 1
         attachment = Attachment(self._count, time.time_ns(), self._gid).data
         self._writer.put(encode(self.endpoint.interface, message), attachment=attachment)
+
+
+class Request:
+    """What somebody asks of a service; it ends without an answer when it is forgotten."""
+
+    def __init__(self, query: Any, endpoint: Endpoint, asked: Attachment) -> None:
+        self._query, self._endpoint, self._asked = query, endpoint, asked
+
+    @property
+    def data(self) -> bytes:
+        """What is asked, as CDR; of one that is far too large nothing."""
+        payload = self._query.payload
+        return b"" if payload is None or len(payload) > MOST_BYTES else payload.to_bytes()
+
+    def answer(self, response: dict[str, Any]) -> None:
+        """Say so, once."""
+        endpoint = self._endpoint
+        data = encode(f"{endpoint.interface}_Response", response)
+        attachment = self._asked._replace(stamp_ns=time.time_ns()).data
+        self._query.reply(endpoint.key, data, attachment=attachment)
+        self._query.drop()
 
 
 class Network(Closing):
@@ -142,6 +163,29 @@ class Network(Closing):
             return True
 
         return wait
+
+    def service(self, name: str, interface: str, qos: Qos) -> Callable[[], Request | None]:
+        """Serve in this node's namespace from now on; of those who ask so many wait, the newest.
+
+        Returns:
+            What gives the oldest request that has not been given, None where there is none. One
+            that does not say who asks is no request.
+        """
+        endpoint = self._endpoint("SS", name, interface, qos)
+        waiting = zenoh.handlers.RingChannel(endpoint.qos.depth)
+        # rmw_zenoh asks those alone that say they are complete.
+        reader = self._session.declare_queryable(endpoint.key, waiting, complete=True)
+        self._subscriptions.append((reader, self._tell_of(endpoint)))
+
+        def take() -> Request | None:
+            while (query := reader.try_recv()) is not None:
+                attached = query.attachment
+                asked = None if attached is None else Attachment.read(attached.to_bytes())
+                if asked is not None:
+                    return Request(query, endpoint, asked)
+            return None
+
+        return take
 
     def _read(self, endpoint: Endpoint, key: str) -> Any:
         kept = zenoh.handlers.RingChannel(endpoint.qos.depth)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from executive.frontends.ros2.orders import Orders
+from executive.frontends.ros2.plans import Plans
 from executive.health import Level
 from robot.messages import BodyState, LoopTiming
 
@@ -41,10 +42,11 @@ def status(orders: Orders) -> dict[str, Any]:
 
 
 def diagnosed(
-    orders: Orders, body: BodyState | None, timing: LoopTiming | None, *, refused: int
+    orders: Orders, body: BodyState | None, timing: LoopTiming | None, *, plans: Plans, refused: int
 ) -> list[Row]:
     """Rows of /diagnostics."""
-    return [_health(orders), _motors(body), _controller(timing), _bridge(orders, refused)]
+    rows = [_health(orders), _motors(body), _controller(timing), _bridge(orders, refused)]
+    return [*rows, _plans(plans)]
 
 
 def _health(orders: Orders) -> Row:
@@ -84,3 +86,8 @@ def _controller(timing: LoopTiming | None) -> Row:
 def _bridge(orders: Orders, refused: int) -> Row:
     values = {"samples_refused": str(refused), "tasks_left_out": str(orders.left_out)}
     return OK, "bridge to ROS 2", "it works", values
+
+
+def _plans(plans: Plans) -> Row:
+    values = {"requests": str(plans.count)}
+    return OK, "plans", plans.said, values

@@ -1,4 +1,4 @@
-"""The topics of the robot for ROS 2 machines: one table of what goes out, one of what comes in."""
+"""The robot's topics and services for ROS 2 machines: what goes out, comes in, and is asked."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ STREAM = Qos(depth=10)
 
 
 class Topic(NamedTuple):
-    """A topic: its name below the namespace, its messages, its quality of service."""
+    """A topic or service: its name below the namespace, its interface, its quality of service."""
 
     name: str
     interface: str
@@ -42,3 +42,6 @@ GOAL = Topic("task/goal", "std_msgs/msg/String", Qos(depth=8))
 STOP = Topic("task/stop", "std_msgs/msg/Empty", Qos(depth=1))
 ESTOP = Topic("estop", "std_msgs/msg/Empty", Qos(depth=1))
 CMD_VEL = Topic("cmd_vel", "geometry_msgs/msg/Twist", Qos(depth=1))
+
+PLAN = Topic("plan_trajectory", "nav_msgs/srv/GetPlan", STREAM)
+"""A service: which way the robot would walk. STREAM is the default of services as well."""

@@ -19,13 +19,13 @@ _TYPE_IDS = {
 }  # fmt: skip
 """type_description_interfaces/msg/FieldType."""
 _NESTED = 1
-_ARRAY, _SEQUENCE = 48, 144
-"""What is added to a type's number where there are many of it: so many, or as many as come."""
+_ARRAY, _BOUNDED, _SEQUENCE = 48, 96, 144
+"""What is added to a type's number for so many, so many at most, as many as come."""
 
 
 @cache
 def type_hash(interface: str) -> str:
-    """`RIHS01_` and 64 hexadecimal digits. Raises KeyError for a message not spoken here."""
+    """`RIHS01_` and 64 hexadecimal digits, of a message or service. Raises KeyError for others."""
     described = {
         "type_description": _described(interface),
         "referenced_type_descriptions": [
@@ -41,10 +41,15 @@ def _described(interface: str) -> dict[str, Any]:
 
 def _field(field: Field) -> dict[str, Any]:
     number = _TYPE_IDS.get(field.of, _NESTED)
-    many = 0 if field.size is None else _ARRAY if field.size else _SEQUENCE
+    if field.size is None:
+        many = 0
+    elif field.size:
+        many = _ARRAY
+    else:
+        many = _BOUNDED if field.most else _SEQUENCE
     kind = {
         "type_id": number + many,
-        "capacity": field.size or 0,
+        "capacity": field.size or field.most,
         "string_capacity": 0,
         "nested_type_name": field.of if number == _NESTED else "",
     }

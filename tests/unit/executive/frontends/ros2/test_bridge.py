@@ -79,6 +79,10 @@ class Rig:
         return inbox
 
 
+def unplanned():
+    raise AssertionError("nobody asked for a way")
+
+
 @pytest.fixture(scope="module")
 def rig(tmp_path_factory):
     endpoint = free_endpoint()
@@ -95,7 +99,7 @@ def rig(tmp_path_factory):
         ):
             bus = LocalBus()
             heed_stops(network, orders)
-            bridge = Bridge(bus, network, orders, JUNO, pictures=True)
+            bridge = Bridge(bus, network, orders, JUNO, planner=unplanned, pictures=True)
             bus.publish(own.BODY_STATE, body(1.0))
             yield Rig(bus, peer, bridge, network, orders, told)
 
@@ -125,9 +129,10 @@ def body(stamp_s, **changed):
 def test_a_node_with_all_its_topics_is_found_by_liveliness_alone(rig):
     names = {f"MP /{one.name}" for one in (*topics.ALWAYS, *topics.WITH_PICTURES)}
     names |= {f"MS /{one.name}" for one in (topics.GOAL, topics.STOP, topics.ESTOP, topics.CMD_VEL)}
+    names.add(f"SS /{topics.PLAN.name}")
     assert eventually(lambda: rig.peer.tokens().keys() >= {"humanoid", *names})
     for token in rig.peer.tokens().values():
-        if token.role != "NN":
+        if token.role in ("MP", "MS"):
             assert token.hash == STORE.hash_rihs01(token.interface)
 
 

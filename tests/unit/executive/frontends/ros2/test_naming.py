@@ -6,6 +6,7 @@ import pytest
 import zenoh
 from zenoh.ext import Int64, z_serialize
 
+from executive.frontends.ros2.interfaces import INTERFACES, service
 from executive.frontends.ros2.naming import (
     Attachment,
     Endpoint,
@@ -94,3 +95,28 @@ def test_every_name_of_a_robot_makes_a_namespace_that_ros_and_zenoh_take(name):
     node = Node(0, "1", space, "humanoid")
     zenoh.KeyExpr(node.token)
     zenoh.KeyExpr(Endpoint(node, 1, "MP", node.topic("tf"), KIND, Qos()).token)
+
+
+def test_a_service_is_told_as_the_design_document_has_it(monkeypatch):
+    name = "example_interfaces/srv/AddTwoInts"
+    known = service(name, request=("int64 a", "int64 b"), response=("int64 sum",))
+    for interface, lines in known.items():
+        monkeypatch.setitem(INTERFACES, interface, lines)
+    node = Node(2, "f9980ee0495eaafb3e38f0d19e2eae12", "", "add_two_ints_server")
+    served = Endpoint(node, 10, "SS", "/add_two_ints", name, Qos())
+    kind = (
+        "example_interfaces::srv::dds_::AddTwoInts_/"
+        "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a"
+    )
+    assert served.key == f"2/add_two_ints/{kind}"
+    assert served.token == (
+        "@ros2_lv/2/f9980ee0495eaafb3e38f0d19e2eae12/0/10/SS/%/%/add_two_ints_server/"
+        f"%add_two_ints/{kind}/::,10:,:,:,,"
+    )
+
+
+def test_an_attachment_is_read_as_it_is_written_and_nothing_else_is_one():
+    one = Attachment(7, 1_700_000_000_000_000_000, bytes(range(16)))
+    assert Attachment.read(one.data) == one
+    for data in (b"", one.data[:-1], one.data + b"x", one.data[:16] + b"\x0f" + one.data[17:]):
+        assert Attachment.read(data) is None
