@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import IntEnum
 from typing import Literal, NamedTuple
 
@@ -102,3 +103,25 @@ class Alarms:
     def reset(self) -> None:
         """End all of them: what is still wrong sounds again."""
         self._on.clear()
+
+
+class News:
+    """Says what is new of alarms, a line each."""
+
+    def __init__(self, alarms: Alarms, tell: Callable[[str], None]) -> None:
+        """Nothing was said yet; `tell` hears the lines."""
+        self._alarms, self._tell = alarms, tell
+        self._told = frozenset[str]()
+
+    def say(self, now_s: float) -> None:
+        """Say which began since the last time."""
+        if not self._alarms.on and not self._told:
+            return
+        on = {f"{alarm.code} {alarm.who}": alarm for alarm in self._alarms.on}
+        for key in on.keys() - self._told:
+            self._tell(f"{now_s:.3f} s, {on[key].level.name}: {on[key]}")
+        self._told = frozenset(on)
+
+
+def untold(_line: str) -> None:
+    """Hear nothing."""
