@@ -23,6 +23,16 @@ class Level(IntEnum):
     SIT = 4
 
 
+DOES: dict[Level, str] = {
+    Level.OK: "nothing; what was lost is bridged",
+    Level.WARN: "says so",
+    Level.DERATE: "gives less torque; the executive walks slower",
+    Level.HOLD: "keeps every joint's last target, whatever is commanded; the task waits",
+    Level.SIT: "obeys again, so that the controller squats within 2 to 3 s and stays low; the task "
+    "ends",
+}
+"""What drivers and who commands them do at each level, for people."""
+
 NAMES: dict[Level, Literal["WARN", "DERATE", "HOLD", "SIT"]] = {
     Level.WARN: "WARN",
     Level.DERATE: "DERATE",
@@ -54,11 +64,30 @@ class Alarm(NamedTuple):
         return f"{self.who}: {self.cause} ({self.cure})"
 
 
-BY_STATUS: dict[str, Level] = {
-    "over_current": Level.HOLD,
-    "overload": Level.HOLD,
-}
-"""What a motor's fault leads to; one that is not named here: SIT, latched."""
+class Kind(NamedTuple):
+    """A row of a table of alarms (`docs/safety.md` is made of them).
+
+    Attributes:
+        code: for programs.
+        level: what is done.
+        when: what it takes, for people.
+        within: how long that takes.
+        is_latched: whether only `reset` ends it.
+    """
+
+    code: str
+    level: Level
+    when: str
+    within: str
+    is_latched: bool = False
+
+    def alarm(self, who: str, cause: str, cure: str, *, code: str = "") -> Alarm:
+        """One of this kind; by another code where a row stands for several."""
+        return Alarm(code or self.code, who, self.level, cause, cure, self.is_latched)
+
+
+BY_STATUS = ("over_current", "overload")
+"""Faults of a motor that end by themselves, and lead to HOLD; one that is not named here: SIT."""
 
 
 class Alarms:
@@ -114,10 +143,10 @@ class News:
         self._told = frozenset[str]()
 
     def say(self, now_s: float) -> None:
-        """Say which began since the last time."""
+        """Say which began since the last time, or got worse."""
         if not self._alarms.on and not self._told:
             return
-        on = {f"{alarm.code} {alarm.who}": alarm for alarm in self._alarms.on}
+        on = {f"{one.code} {one.who} {one.level.name}": one for one in self._alarms.on}
         for key in on.keys() - self._told:
             self._tell(f"{now_s:.3f} s, {on[key].level.name}: {on[key]}")
         self._told = frozenset(on)

@@ -7,20 +7,59 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-from robot.drivers.motors.alarms import Alarm, Alarms, Level
+from robot.drivers.motors.alarms import Alarm, Alarms, Kind, Level
 from robot.drivers.motors.jumps import JUMPS_BELIEVED
-from robot.drivers.motors.limiter import WARM_K
+from robot.drivers.motors.limiter import LEAST_SHARE, WARM_K
 from robot.drivers.motors.mounting import MountedJoints
-from robot.drivers.motors.speed_check import SpeedCheck
+from robot.drivers.motors.speed_check import WINDOW_S, SpeedCheck
 from robot.se3 import Array
 
 SILENT_PERIODS = 3
 SILENT_S = 0.020
 
 
-def unplugged(line: str, why: str, cure: str) -> Alarm:
-    """The interface of a bus or port went away."""
-    return Alarm("unplugged", line, Level.SIT, why, cure, is_latched=True)
+SILENT = Kind(
+    "silent",
+    Level.HOLD,
+    f"{SILENT_PERIODS} replies in a row did not come",
+    f"{SILENT_PERIODS} periods",
+)
+DEAD = Kind(
+    "silent",
+    Level.SIT,
+    f"no reply for {1000 * SILENT_S:g} ms, and {SILENT_PERIODS + 1} periods at least",
+    f"{1000 * SILENT_S:g} ms",
+    is_latched=True,
+)
+WARM = Kind(
+    "warm",
+    Level.DERATE,
+    f"a winding is within {WARM_K:g} K of its limit: torque falls linearly to "
+    f"{100 * LEAST_SHARE:g} % there",
+    "1 period",
+)
+WRONG_SPEED = Kind(
+    "speed_mismatch",
+    Level.HOLD,
+    f"its speed is not that of its positions, over two windows of {1000 * WINDOW_S:g} ms in motion",
+    f"{2000 * WINDOW_S:g} ms",
+)
+JUMPED = Kind(
+    "encoder_jump",
+    Level.SIT,
+    f"{JUMPS_BELIEVED} positions in a row were too far from the one before; none is believed",
+    f"{JUMPS_BELIEVED} periods",
+    is_latched=True,
+)
+UNPLUGGED = Kind(
+    "unplugged",
+    Level.SIT,
+    "the interface of a bus or port went away; the others go on",
+    "1 period",
+    is_latched=True,
+)
+KINDS = (SILENT, DEAD, WARM, WRONG_SPEED, JUMPED, UNPLUGGED)
+"""What is watched for in every family."""
 
 
 class JointAlarms:
@@ -81,10 +120,7 @@ class JointAlarms:
         if misses < SILENT_PERIODS:
             return
         name, text = self.names[index], f"silent for {misses} periods ({motor})"
-        if misses < self._periods:
-            yield Alarm("silent", name, Level.HOLD, text, cure)
-        else:
-            yield Alarm("silent", name, Level.SIT, text, cure, is_latched=True)
+        yield (SILENT if misses < self._periods else DEAD).alarm(name, text, cure)
 
     def motion(self, index: int, jumps: int, cure_of_speed: str) -> Iterator[Alarm]:
         """Its speed is not that of its positions, or its position jumped.
@@ -97,18 +133,17 @@ class JointAlarms:
         name = self.names[index]
         if self.speeds.wrong[index]:
             text = f"its speed is {self.speeds.ratio[index]:.2f} times that of its positions"
-            yield Alarm("speed_mismatch", name, Level.HOLD, text, cure_of_speed)
+            yield WRONG_SPEED.alarm(name, text, cure_of_speed)
         if jumps >= JUMPS_BELIEVED:
             text = f"its position jumped, {jumps} times in a row"
-            cure = "look at its encoder and its power"
-            yield Alarm("encoder_jump", name, Level.SIT, text, cure, is_latched=True)
+            yield JUMPED.alarm(name, text, "look at its encoder and its power")
 
     def heat(self, index: int, celsius: float) -> Iterator[Alarm]:
         """It is warm, and gives less."""
         hot_c = float(self._hot_c[index])
         if celsius > hot_c - WARM_K:
             text = f"{celsius:.0f} °C of {hot_c:g}: less torque"
-            yield Alarm("warm", self.names[index], Level.DERATE, text, "let it rest")
+            yield WARM.alarm(self.names[index], text, "let it rest")
 
     def sound(self, index: int, alarms: list[Alarm]) -> None:
         """These are a joint's now: what it had beside them has ended, unless it is latched."""

@@ -4,18 +4,47 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from robot.drivers.motors.alarms import BY_STATUS, Alarm, Alarms, Level
+from robot.drivers.motors.alarms import BY_STATUS, Alarm, Alarms, Kind, Level
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.drivers.motors.can.mit11 import DISABLED, ENABLED
 from robot.drivers.motors.can.reception import Reception
 from robot.drivers.motors.can.sending import TransmitQueue
-from robot.drivers.motors.watching import JointAlarms, unplugged
+from robot.drivers.motors.watching import UNPLUGGED, JointAlarms
 from robot.se3 import Array
 
 FULL_S = 0.010
 DOUBLE_PERIODS = 3
 LOST = "lost_communication"
 """Which a motor tells after its controller was killed, until it is armed again."""
+
+STRAINED = Kind(
+    "its status",
+    Level.HOLD,
+    f"a motor reports {', '.join(BY_STATUS).replace('_', '-')}",
+    "1 period",
+)
+FAULT = Kind(
+    "its status",
+    Level.SIT,
+    "a motor reports another fault, an unknown status, or that somebody disabled it",
+    "1 period",
+    is_latched=True,
+)
+BUS_OFF = Kind("bus_off", Level.SIT, "a bus is off; the others go on", "at once", is_latched=True)
+TWIN = Kind(
+    "duplicate_id",
+    Level.HOLD,
+    f"two replies a period to one identifier, {DOUBLE_PERIODS} periods in a row",
+    f"{DOUBLE_PERIODS} periods",
+)
+QUEUE_FULL = Kind(
+    "queue_full",
+    Level.WARN,
+    "an interface takes nothing; what waits is replaced by what is newer, and never queued",
+    f"{1000 * FULL_S:g} ms",
+)
+KINDS = (STRAINED, FAULT, BUS_OFF, TWIN, QUEUE_FULL)
+"""What only motors on CAN have."""
 
 
 class Watch:
@@ -38,14 +67,12 @@ class Watch:
     def bus_off(self, bus: str) -> None:
         """A controller took itself off its bus."""
         cure = "look for a loose or swapped wire; ip link set CHANNEL type can restart-ms 100"
-        self._alarms.sound(
-            Alarm("bus_off", bus, Level.SIT, "the bus is off", cure, is_latched=True)
-        )
+        self._alarms.sound(BUS_OFF.alarm(bus, "the bus is off", cure))
 
     def unplugged(self, bus: str, why: str) -> None:
         """The interface of a bus went away."""
         cure = "plug it in, see that it is up (ip link show), and start again"
-        self._alarms.sound(unplugged(bus, why, cure))
+        self._alarms.sound(UNPLUGGED.alarm(bus, why, cure))
 
     def look(
         self,
@@ -92,7 +119,7 @@ class Watch:
         alarms += looks.motion(index, int(heard.jumps[index]), cure)
         if is_armed and heard.doubles[index] >= DOUBLE_PERIODS:  # else others may have commanded
             text = f"more than one motor answers as {one.answers_as} on {one.bus}"
-            alarms.append(Alarm("duplicate_id", name, Level.HOLD, text, "give each its own id"))
+            alarms.append(TWIN.alarm(name, text, "give each its own id"))
         return alarms
 
     def _status(self, code: int, name: str, one: JointMotor, *, is_armed: bool) -> list[Alarm]:
@@ -100,15 +127,15 @@ class Watch:
         usual = code == DISABLED or status.code == LOST
         if code == ENABLED or (usual and not is_armed):
             return []
-        level = BY_STATUS.get(status.code, Level.SIT)
+        kind = STRAINED if status.code in BY_STATUS else FAULT
         cure = status.cure or "somebody else disabled it"
         text = f"reports {status.code.replace('_', ' ')}"
-        return [Alarm(status.code, name, level, text, cure, is_latched=level >= Level.SIT)]
+        return [kind.alarm(name, text, cure, code=status.code)]
 
     def _queue(self, queue: TransmitQueue, now_s: float) -> None:
         if queue.full_since_s is not None and now_s - queue.full_since_s >= FULL_S:
             text = f"its queue takes nothing, {queue.replaced} old commands were dropped"
             cure = "are its motors powered? is it terminated?"
-            self._alarms.sound(Alarm("queue_full", queue.bus, Level.WARN, text, cure))
+            self._alarms.sound(QUEUE_FULL.alarm(queue.bus, text, cure))
         elif queue.full_since_s is None:
             self._alarms.quiet("queue_full", queue.bus)

@@ -6,16 +6,40 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from robot.drivers.motors.alarms import Alarm, Alarms, Level
+from robot.drivers.motors.alarms import Alarm, Alarms, Kind, Level
 from robot.drivers.motors.dynamixel.control_table import hardware_errors
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
 from robot.drivers.motors.dynamixel.packets import Receiver
 from robot.drivers.motors.dynamixel.reception import Reception
-from robot.drivers.motors.watching import JointAlarms, unplugged
+from robot.drivers.motors.watching import UNPLUGGED, JointAlarms
 from robot.se3 import Array
 
 NOISY_S, NOISY_ERRORS = 1.0, 5
 """So many spoilt packets of a port in so long."""
+
+ALERT = Kind("alert", Level.HOLD, "a servo's alert bit: its error is asked for", "1 period")
+ERROR = Kind(
+    "its error",
+    Level.SIT,
+    "a servo reports a hardware error: voltage, heat, encoder, shock, overload",
+    "2 periods",
+    is_latched=True,
+)
+EXPIRED = Kind(
+    "lost_communication",
+    Level.SIT,
+    "servos had no word for longer than their watchdog, and take no goals",
+    "at once",
+    is_latched=True,
+)
+NOISY = Kind(
+    "noisy",
+    Level.WARN,
+    f"{NOISY_ERRORS} spoilt packets of a port in {NOISY_S:g} s",
+    f"{NOISY_S:g} s",
+)
+KINDS = (ALERT, ERROR, EXPIRED, NOISY)
+"""What only servos have."""
 
 
 class Watch:
@@ -39,15 +63,13 @@ class Watch:
 
     def unplugged(self, port: str, why: str) -> None:
         """A port went away."""
-        self._alarms.sound(unplugged(port, why, "plug it in, and start again"))
+        self._alarms.sound(UNPLUGGED.alarm(port, why, "plug it in, and start again"))
 
     def expired(self, since_s: float) -> None:
         """Servos had no word for longer than their watchdogs: they take no goals any more."""
         text = f"no word to the servos for {1000 * since_s:.0f} ms: their watchdogs have expired"
         cure = "why was the computer busy? start again"
-        self._alarms.sound(
-            Alarm("lost_communication", "servos", Level.SIT, text, cure, is_latched=True)
-        )
+        self._alarms.sound(EXPIRED.alarm("servos", text, cure))
 
     def look(
         self, now_s: float, heard: Reception, q: Array, qd: Array, *,
@@ -94,7 +116,7 @@ class Watch:
         if more >= NOISY_ERRORS:
             text = f"{more} spoilt packets in {NOISY_S:g} s"
             cure = "look at cable and ground; do two servos have one id?"
-            self._alarms.sound(Alarm("noisy", port, Level.WARN, text, cure))
+            self._alarms.sound(NOISY.alarm(port, text, cure))
         else:
             self._alarms.quiet("noisy", port)
 
@@ -105,8 +127,8 @@ def _hardware(name: str, bits: int, *, is_alert: bool) -> list[Alarm]:
         return []
     cure = "find out why; then reboot it, or switch it off and on"
     if not bits:
-        return [Alarm("alert", name, Level.HOLD, "it has a hardware error to tell", cure)]
+        return [ALERT.alarm(name, "it has a hardware error to tell", cure)]
     return [
-        Alarm(error, name, Level.SIT, f"reports {error.replace('_', ' ')}", cure, is_latched=True)
+        ERROR.alarm(name, f"reports {error.replace('_', ' ')}", cure, code=error)
         for error in hardware_errors(bits)
     ]
