@@ -60,6 +60,22 @@ class Life(Generic[L]):
         self._lines = lines
         return asked
 
+    def claim(self, begin: Callable[[L], None]) -> bool:
+        """Become the one that commands the motors; False while another one does.
+
+        Args:
+            begin: forgets what came in while another one did; where the claim is new.
+
+        Raises:
+            DriverError: the lines are not open.
+        """
+        lines = self.lines
+        if self._claim.is_held:
+            return True
+        if taken := self._claim.take():
+            begin(lines)
+        return taken
+
     def close(self, leave: Callable[[L], None], left: Callable[[], None]) -> None:
         """Leave the motors, let go of the claim, and close the lines, if they are open.
 

@@ -190,18 +190,16 @@ class CanMotors(Closing):
         Where that one died a moment ago its motors are still enabled: they are asked at once, and
         the next command goes to them as they are.
         """
-        ports = self._life.lines
-        if self._claim.is_held:
-            return True
-        if taken := self._claim.take():
-            for _ in range(STALE_CALLS):  # what nobody read meanwhile is of the past
-                if not ports.receive_packed():
-                    break
-            self._claimed_s = self._clock.now_s()
-            self._periods.begin()
-            self._asks = True
-            self.reception.forget_where()
-        return taken
+        return self._life.claim(self._begin)
+
+    def _begin(self, ports: Ports) -> None:
+        for _ in range(STALE_CALLS):  # what nobody read meanwhile is of the past
+            if not ports.receive_packed():
+                break
+        self._claimed_s = self._clock.now_s()
+        self._periods.begin()
+        self._asks = True
+        self.reception.forget_where()
 
     @property
     def late(self) -> int:

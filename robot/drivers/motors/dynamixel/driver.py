@@ -162,16 +162,14 @@ class DynamixelMotors(Closing):
 
     def claim(self) -> bool:
         """Become the one that commands these ports; False while another one does."""
-        ports = self._life.lines
-        if self._claim.is_held:
-            return True
-        if taken := self._claim.take():
-            for port in self.joints.ports:
-                ports.read(port)  # what nobody read meanwhile is of the past
-            self._forget_asking()
-            self._periods.begin()
-            self.reception.forget_where()
-        return taken
+        return self._life.claim(self._begin)
+
+    def _begin(self, ports: Ports) -> None:
+        for port in self.joints.ports:
+            ports.read(port)  # what nobody read meanwhile is of the past
+        self._forget_asking()
+        self._periods.begin()
+        self.reception.forget_where()
 
     @property
     def late(self) -> int:

@@ -251,6 +251,23 @@ def test_losses_that_end_let_joints_go_on_where_they_are_sent(make):
         assert not sent.alarms
 
 
+@pytest.mark.parametrize("make", [can, servos])
+def test_at_hold_nothing_new_is_obeyed_and_at_sit_commands_pass_to_what_is_left(make):
+    rig = make()
+    well = 3  # a joint on the other bus or port
+    with rig.driver as driver:
+        before = Watched(rig).cycle(WARM_UP).q[well]
+        motor_of(rig).trouble.silent = True
+        Watched(rig).cycle(3)
+        assert driver.alarms.level == Level.HOLD
+        while driver.alarms.level == Level.HOLD:
+            state = rig.cycle(1, q=1.0)
+            assert abs(state.q[well] - before) < 0.02
+        assert driver.alarms.level == Level.SIT
+        state = rig.cycle(200, q=1.0)
+        assert state.q[well] == pytest.approx(1.0, abs=0.1)
+
+
 def test_a_servo_that_tells_wrong_speeds_is_seen_within_200_ms_of_moving():
     rig = servos()
     with rig.driver:
