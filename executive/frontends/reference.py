@@ -15,6 +15,7 @@ from executive.evaluation.campaign import SHIPPED, Campaign, read
 from executive.trees.recovery import PER_STEP, PER_TASK, RULES
 from executive.trees.remedies import ASKING, HELP, REMEDIES, STEP_BACK_M, WAIT_S
 from robot import config
+from robot.bringup import safety
 from robot.bus.topics import BY_NAME
 from robot.exit_status import BROKEN_CODES, MEANINGS
 from robot.failures import CATALOGUE
@@ -24,7 +25,7 @@ MARKS = "<!-- table: {name} -->", "<!-- end -->"
 SLOWER = frozenset({"DERATE", "RETURN"})
 """Levels at which the robot walks, and slower."""
 
-PAGES = ("executive.md", "failures.md", "health.md", "recovery.md", "evaluation.md")
+PAGES = ("executive.md", "failures.md", "health.md", "recovery.md", "evaluation.md", "safety.md")
 
 WHAT = {
     "retry": "nothing first; it is planned anew, with another seed",
@@ -147,7 +148,31 @@ def campaign() -> str:
     return _table(["case", "mission", "fault", "expected", "that is"], rows)
 
 
+def motor_ladder() -> str:
+    """What is done at each level of a motor's alarm."""
+    return _table(["level", "what the robot does"], safety.ladder())
+
+
+def motor_alarms() -> str:
+    """What sounds an alarm of motors."""
+    return _table(["motors", "what happened", "code", "level", "within"], safety.alarms())
+
+
+def motor_watchdogs() -> str:
+    """How long motors wait for a command."""
+    return _table(["motors", "as a map usually says", "at least"], safety.watchdogs())
+
+
+def controller_reactions() -> str:
+    """What the controller does by itself."""
+    return _table(["what happened", "what the controller does", "within"], safety.controller())
+
+
 TABLES = {
+    "motor ladder": motor_ladder,
+    "motor alarms": motor_alarms,
+    "motor watchdogs": motor_watchdogs,
+    "controller": controller_reactions,
     "exit statuses": exit_statuses,
     "failures": failures,
     "broken": broken,

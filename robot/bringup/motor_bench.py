@@ -9,25 +9,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Literal, TypeAlias
+from functools import partial
+from typing import Literal, TypeAlias, TypeVar
 
 import msgspec
 import numpy as np
 
+from robot.bringup import motor_families
 from robot.bringup.end_wish import EndWish
+from robot.bringup.motor_family import MapDriver
 from robot.clock import Clock
+from robot.closing import Closing
 from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.alarms import Level
-from robot.drivers.motors.can.driver import CanMotors
-from robot.drivers.motors.can.interview import exchange
-from robot.drivers.motors.can.joint_map import JointMap, JointMotor
-from robot.drivers.motors.can.mit11 import DISABLED
-from robot.drivers.motors.can.ports import Ports, PythonCan
+from robot.drivers.motors.motor_map import MotorMap
+from robot.drivers.motors.mounting import Mounted
 from robot.errors import ConfigError, DriverError, Problem
 from robot.misfits import nearest
 
-Opens: TypeAlias = Callable[[JointMap], Ports]
-"""Makes the buses of a map, which are opened by entering."""
+M = TypeVar("M", bound=MotorMap)
+
+Opens: TypeAlias = Callable[[M], Closing]
+"""Makes the buses or ports of a map, which are opened by entering."""
 
 STILL_RAD, STILL_S, WAITS_S = 0.01, 0.3, 10.0
 """A joint that moved no more than this for so long is still; so long that is waited for."""
@@ -42,33 +45,33 @@ THERE_RAD, THERE_SHARE = 0.05, 0.5
 What hangs on it keeps it behind by `STIFF_RAD` times the share of its torque that this takes."""
 DAMPING_SHARE = 0.05
 SETTLES_S, DAMPS_S = 0.3, 0.5
-RATE_HZ, WATCHDOG_S = 100, 0.1
-"""A slow joint needs no more commands, and a busy laptop then loses no reply to speak of."""
+WATCHDOG_S = 0.1
+"""A slow joint needs few commands (`MotorFamily.jog_hz`): a busy laptop then loses no reply."""
 LEAST_SPAN_S = 0.2
 BLOCKED = "look for what blocks it, or give it more with --torque"
 
 
-def opened(joints: JointMap, clock: Clock, opens: Opens | None) -> Ports:
-    """The buses of a map: by python-can, or as a test has them."""
-    return opens(joints) if opens else PythonCan(joints.buses, clock)
+def opened(joints: M, clock: Clock, opens: Opens[M] | None) -> Closing:
+    """The buses or ports of a map: its family's, or as a test has them."""
+    return opens(joints) if opens else motor_families.of(joints).ports(joints, clock)
 
 
-def only(joints: JointMap, name: str) -> JointMap:
-    """The map of one joint and its bus, at a slow rate.
+def only(joints: M, name: str) -> M:
+    """The map of one joint and its bus or port, at a slow rate.
 
     Raises:
         ConfigError: there is no such joint, with the nearest.
     """
-    joint = joints.joints.get(name)
+    family, joint = motor_families.of(joints), joints.joints.get(name)
     if joint is None:
         cure = nearest(name, list(joints.joints)) or f"one of {', '.join(joints.joints)}"
         raise ConfigError([Problem(f"there is no joint {name!r}", joints.file, suggestion=cure)])
     return msgspec.structs.replace(
         joints,
-        rate_hz=min(RATE_HZ, joints.rate_hz),
+        rate_hz=min(family.jog_hz, joints.rate_hz),
         watchdog_s=max(WATCHDOG_S, joints.watchdog_s),
-        buses={joint.bus: joints.buses[joint.bus]},
         joints={name: joint},
+        **{family.lines: {joint.line: getattr(joints, family.lines)[joint.line]}},
     )
 
 
@@ -94,13 +97,13 @@ class Zeroed(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def zero(
-    joints: JointMap,
+    joints: M,
     name: str,
     clock: Clock,
     *,
     at_rad: float,
     in_motor: bool,
-    opens: Opens | None = None,
+    opens: Opens[M] | None = None,
 ) -> Zeroed:
     """Find what offset a joint has that stands at a known angle, and is still; nothing is enabled.
 
@@ -116,15 +119,15 @@ def zero(
         ConfigError: there is no such joint.
         DriverError: it does not answer, moves, or is commanded by somebody.
     """
-    one = only(joints, name)
+    one, family = only(joints, name), motor_families.of(joints)
     joint = one.joints[name]
-    free = _unlimited(one, name)
-    ports = opened(free, clock, opens)
-    with CanMotors(free, clock, ports=lambda: ports, lets_go=True) as driver:
+    # What the map says of the motor's angles is in question.
+    free = msgspec.structs.replace(one, joints={name: family.bare(joint)})
+    lines = opened(free, clock, opens)
+    with family.motors(free, clock, ports=lambda: lines, lets_go=True) as driver:
         if not driver.claim():
             raise DriverError(f"another program commands the bus of {name}: end that one first")
-        if int(driver.reception.status[0]) != DISABLED:
-            status = joint.family.status(int(driver.reception.status[0])).code.replace("_", " ")
+        if status := family.resting(driver, lines, clock).replace("_", " "):
             cure = "switch it off and on again, or clear its fault; nothing was changed"
             raise DriverError(f"{name} is {status}, and has to be disabled ({cure})")
         motor_rad = _still_rad(driver, clock, name)
@@ -132,18 +135,17 @@ def zero(
         if not in_motor:
             offset_rad = at_rad - joint.sign * motor_rad / joint.gear
         else:
-            _set_zero(driver, ports, clock, name)
+            _set_zero(driver, partial(family.set_zero, lines, clock, one, at_rad), clock, name)
             offset_rad = at_rad
     return Zeroed(
         joint=name, was_rad=was_rad, at_rad=at_rad, offset_rad=offset_rad, is_in_motor=in_motor
     )
 
 
-def _set_zero(driver: CanMotors, ports: Ports, clock: Clock, name: str) -> None:
+def _set_zero(driver: MapDriver, tell: Callable[[], None], clock: Clock, name: str) -> None:
     """Let its motor call this position zero. Raises DriverError if it was not seen to."""
-    joint = driver.joints.joints[name]
     try:
-        exchange(ports, clock, [(joint.bus, joint.family.set_zero(joint.id))], lambda _: None)
+        tell()
         driver.reset()
         driver.reception.forget_where()
         found_rad = _still_rad(driver, clock, name)
@@ -155,17 +157,7 @@ def _set_zero(driver: CanMotors, ports: Ports, clock: Clock, name: str) -> None:
         raise DriverError(f"{text} (set it with the maker's tool)")
 
 
-def _unlimited(one: JointMap, name: str) -> JointMap:
-    """The motor's own angles, as far as its frames go: what its map says of them is in question."""
-    joint = one.joints[name]
-    most_rad = joint.expected.position_rad
-    bare = msgspec.structs.replace(
-        joint, sign=1, offset_rad=0.0, gear=1.0, lower_rad=-most_rad, upper_rad=most_rad
-    )
-    return msgspec.structs.replace(one, joints={name: bare})
-
-
-def _still_rad(driver: CanMotors, clock: Clock, name: str) -> float:
+def _still_rad(driver: MapDriver, clock: Clock, name: str) -> float:
     """Where its motor stands, once it is still. Raises DriverError if it is not, or is silent."""
     until_s, since_s = clock.now_s() + WAITS_S, clock.now_s()
     seen: list[float] = []
@@ -212,7 +204,7 @@ class Jogged(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def jog(
-    joints: JointMap,
+    joints: M,
     name: str,
     clock: Clock,
     *,
@@ -220,7 +212,7 @@ def jog(
     speed_rad_s: float,
     torque_share: float,
     wish: EndWish,
-    opens: Opens | None = None,
+    opens: Opens[M] | None = None,
 ) -> Jogged:
     """Move one joint by an angle, gently; its motor lets go afterwards.
 
@@ -239,14 +231,16 @@ def jog(
         DriverError: its motor is not what the map says, somebody else commands it, or it was not
             seen to let go.
     """
-    one = only(joints, name)
+    one, family = only(joints, name), motor_families.of(joints)
     joint = one.joints[name]
     limit_nm = torque_share * joint.torque_limit_nm
     weak = msgspec.structs.replace(joint, torque_limit_nm=limit_nm)
     one = msgspec.structs.replace(one, joints={name: weak})
     motion: _Jog | None = None
     try:
-        with CanMotors(one, clock, ports=lambda: opened(one, clock, opens), lets_go=True) as driver:
+        with family.motors(
+            one, clock, ports=lambda: opened(one, clock, opens), lets_go=True
+        ) as driver:
             from_rad = _from_rad(driver, name)
             goal_rad = from_rad + by_rad
             _check_goal(joint, name, from_rad, goal_rad)
@@ -261,7 +255,7 @@ def jog(
         raise DriverError(f"{text} (cut the power before you touch it)") from None
 
 
-def _from_rad(driver: CanMotors, name: str) -> float:
+def _from_rad(driver: MapDriver, name: str) -> float:
     """Where the joint is. Raises DriverError if its motor has not told that."""
     state = driver.read()
     if not np.isfinite(state.age_s[0]):
@@ -269,7 +263,7 @@ def _from_rad(driver: CanMotors, name: str) -> float:
     return float(state.q[0])
 
 
-def _check_goal(joint: JointMotor, name: str, from_rad: float, goal_rad: float) -> None:
+def _check_goal(joint: Mounted, name: str, from_rad: float, goal_rad: float) -> None:
     """Refuse a goal outside the joint's limits, before anything is enabled."""
     if joint.lower_rad <= goal_rad <= joint.upper_rad:
         return
@@ -288,7 +282,7 @@ class _Jog:
 
     def __init__(
         self,
-        driver: CanMotors,
+        driver: MapDriver,
         clock: Clock,
         wish: EndWish,
         *,

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from robot.bringup.motor_families import BY_DRIVER, of
 from robot.bringup.motor_tools import loads
 from robot.control.loop import BUS_PERIOD_S
 from robot.drivers.motors import servos_and_others
 from robot.drivers.motors.can import emulated
 from robot.drivers.motors.can import joint_map as can_map
 from robot.drivers.motors.can.joint_map import JointMap
-from robot.drivers.motors.dynamixel import joint_map as servo_map
-from robot.drivers.motors.dynamixel.joint_map import ServoMap
-from robot.drivers.registry import CAN, DYNAMIXEL, MOTORS
+from robot.drivers.motors.motor_map import MotorMap
+from robot.drivers.registry import CAN, MOTORS
 from robot.errors import ConfigError, Problem
 from robot.misfits import nearest
 from robot.model.description import RobotDescription
-
-FILES = {CAN: can_map.FILE, DYNAMIXEL: servo_map.FILE}
 
 
 def checked(robot: RobotDescription, driver: str) -> str:
@@ -30,36 +28,33 @@ def checked(robot: RobotDescription, driver: str) -> str:
     if driver not in known:
         text = f"motors have no driver {driver!r}"
         raise ConfigError([Problem(text, suggestion=nearest(driver, known))])
-    if driver not in FILES:
+    if driver not in BY_DRIVER:
         return ""
-    file = robot.path().with_name(FILES[driver])
+    file = robot.path().with_name(BY_DRIVER[driver].file)
     if not file.is_file():
-        cure = f"write {FILES[driver]} beside the robot's description (docs/hardware.md)"
+        cure = f"write {file.name} beside the robot's description (docs/hardware.md)"
         text = f"the robot {robot.name!r} has no joint map: which motor moves which joint"
         raise ConfigError([Problem(text, str(file), suggestion=cure)])
     if driver == CAN:
         return _on_can(can_map.beside(robot))
     servos, others = servos_and_others.maps(robot)
-    said = _on_ports(servos)
+    said = _on(servos)
     return said if others is None else f"{said} {_on_can(others)}"
 
 
 def _on_can(joints: JointMap) -> str:
     emulated.check(joints)
-    _check_rate(joints.rate_hz, Path(joints.file))
-    fullest = max(loads(joints), key=lambda load: load.share)
-    return (
-        f"Motors by CAN (emulated): {len(joints.joints)} joints on {len(joints.buses)} buses at "
-        f"{joints.rate_hz} Hz; the fullest, {fullest.bus}, is {fullest.share:.0%} busy."
-    )
+    return _on(joints)
 
 
-def _on_ports(joints: ServoMap) -> str:
+def _on(joints: MotorMap) -> str:
     _check_rate(joints.rate_hz, Path(joints.file))
-    fullest = max(joints.ports, key=joints.load)
+    family, lines = of(joints), loads(joints)
+    fullest = max(lines, key=lambda load: load.share)
     return (
-        f"Motors by Dynamixel (emulated): {len(joints.joints)} joints on {len(joints.ports)} ports "
-        f"at {joints.rate_hz} Hz; the fullest, {fullest}, is {joints.load(fullest):.0%} busy."
+        f"Motors by {family.title} (emulated): {len(joints.joints)} joints on {len(lines)} "
+        f"{family.lines} at {joints.rate_hz} Hz; the fullest, {fullest.bus}, is "
+        f"{fullest.share:.0%} busy."
     )
 
 

@@ -8,10 +8,9 @@ from typing import TextIO
 import msgspec
 import numpy as np
 
-from robot.bringup.motor_bench import Opens, opened
+from robot.bringup import motor_families
+from robot.bringup.motor_bench import M, Opens, opened
 from robot.clock import Clock
-from robot.drivers.motors.can.driver import CanMotors
-from robot.drivers.motors.can.joint_map import JointMap
 
 COLUMNS = ("q_rad", "qd_rad_s", "tau_nm", "winding_c", "age_ms")
 SAME_S = 1e-6
@@ -33,13 +32,13 @@ class Logged(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def log(
-    joints: JointMap,
+    joints: M,
     clock: Clock,
     out: TextIO,
     *,
     for_s: float,
     every_s: float = 0.0,
-    opens: Opens | None = None,
+    opens: Opens[M] | None = None,
 ) -> Logged:
     """Write a line now and then, until the time is over or Ctrl-C; nothing is enabled.
 
@@ -64,7 +63,8 @@ def log(
         ["time_s", *(f"{name}.{column}" for name in joints.joints for column in COLUMNS), "alarms"]
     )
     rows, first_s, last_s = 0, 0.0, 0.0
-    with CanMotors(joints, clock, ports=lambda: opened(joints, clock, opens)) as driver:
+    family = motor_families.of(joints)
+    with family.motors(joints, clock, ports=lambda: opened(joints, clock, opens)) as driver:
         lost = driver.reception.lost
         due_s = begun_s = clock.now_s()
         try:

@@ -1,102 +1,83 @@
-"""Looking at Dynamixel servos from a workbench, as `robot.bringup.motor_tools` looks at CAN motors.
-
-Nothing here enables a servo or moves a joint.
-"""
+"""What `humanoid motors` does with Dynamixel servos, and with no others (`motor_families`)."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from pathlib import Path
+from collections.abc import Mapping
 
 import msgspec
-import numpy as np
 
-from robot.bringup.motor_tools import (
-    BY_HAND,
-    LEAST_ANSWERED,
-    SCALE_SLACK,
-    Check,
-    Line,
-    Load,
-    Reading,
-    Seen,
-    Watched,
-)
+from robot.bringup.motor_family import MapDriver
+from robot.bringup.motor_reports import Reading, Seen
 from robot.clock import Clock
+from robot.drivers.motors.dynamixel import arming, instructions
 from robot.drivers.motors.dynamixel import control_table as table
-from robot.drivers.motors.dynamixel import instructions, joint_map, load
 from robot.drivers.motors.dynamixel.driver import DynamixelMotors
-from robot.drivers.motors.dynamixel.interview import Answers, Finding, interview, verdicts
-from robot.drivers.motors.dynamixel.joint_map import ServoMap
-from robot.drivers.motors.dynamixel.ports import SerialPorts, check_ports
+from robot.drivers.motors.dynamixel.interview import MIDDLE, Answers, interview, verdicts
+from robot.drivers.motors.dynamixel.joint_map import JointServo, ServoMap
+from robot.drivers.motors.dynamixel.models import RAD_A_PULSE
+from robot.drivers.motors.dynamixel.ports import Ports, SerialPorts, check_ports
 from robot.drivers.motors.dynamixel.talking import WAITS_S, Talk
+from robot.drivers.motors.findings import Finding
+from robot.drivers.motors.motor_map import Motor
+from robot.errors import DriverError
 
-Servos = ServoMap
-is_one = joint_map.is_one
+TURN = 4096
+"""Pulses: without power a servo forgets how many turns it made."""
+MOST_TURNS = 256
+"""Either way, that a servo tells."""
 
 
-def load_map(path: Path, channels: Mapping[str, str] | None = None) -> ServoMap:
-    """A servo map, its ports at other devices where these are given.
-
-    Raises:
-        ConfigError: with everything that is wrong in it.
-        DriverError: the user does not let robots open one of its ports.
-    """
-    found = joint_map.load(path)
-    if channels is None:
-        check_ports(found.ports)
-        return found
+def elsewhere(joints: ServoMap, channels: Mapping[str, str], _by: str) -> ServoMap:
+    """A map with its ports at other devices."""
     ports = {
         name: msgspec.structs.replace(port, device=channels[name])
-        for name, port in found.ports.items()
-    }
-    return msgspec.structs.replace(found, ports=ports)
-
-
-def loads(joints: ServoMap) -> tuple[Load, ...]:
-    """How full its ports are."""
-    return tuple(
-        Load(
-            bus=name, channel=port.device, joints=len(joints.on(name)), share=joints.load(name),
-            most=load.MOST_LOAD,
-        )
         for name, port in joints.ports.items()
-    )  # fmt: skip
+    }
+    return msgspec.structs.replace(joints, ports=ports)
 
 
-def scan(joints: ServoMap, clock: Clock, *, up_to: int) -> list[Seen]:
-    """Ask every identifier of every port who it is, at the bit rate of the map.
+def check_user(joints: ServoMap) -> None:
+    """Raises DriverError where the user does not let robots open one of its ports."""
+    check_ports(joints.ports)
 
-    Raises:
-        DriverError: if a port cannot be opened.
-    """
+
+def ports(joints: ServoMap, _clock: Clock) -> Ports:
+    """Its ports, of this machine."""
+    return SerialPorts(joints.ports)
+
+
+def findings(ports: Ports, clock: Clock, joints: ServoMap) -> list[Finding]:
+    """What they say of themselves where the map says otherwise."""
+    return verdicts(joints, interview(Talk(ports, clock, joints)))
+
+
+def scan(ports: Ports, clock: Clock, joints: ServoMap, up_to: int) -> list[Seen]:
+    """Ask every identifier of every port who it is, at the bit rate of the map."""
     named = {(one.port, one.id): name for name, one in joints.joints.items()}
     seen: list[Seen] = []
-    with SerialPorts(joints.ports) as ports:
-        talk = Talk(ports, clock, joints)
-        for number in range(min(up_to, 252) + 1):
-            ping = dict.fromkeys(joints.ports, instructions.ping(number))
-            wait_s = WAITS_S[1] if any((port, number) in named for port in ping) else WAITS_S[0]
-            spoilt = {port: talk.receivers[port].crc_errors for port in ping}
-            for port, heard in talk.ask(ping, dict.fromkeys(ping, 1), wait_s=wait_s).items():
-                twice = talk.receivers[port].crc_errors > spoilt[port]
-                if heard or twice:
-                    firmware = heard[0].data[2] if heard and len(heard[0].data) == 3 else None
-                    seen.append(
-                        Seen(
-                            bus=port, id=number, reply_id=number, replies=2 if twice else 1,
-                            joint=named.get((port, number), ""), mode=None, version=firmware,
-                            ranges=None,
-                        )
-                    )  # fmt: skip
+    talk = Talk(ports, clock, joints)
+    for number in range(min(up_to, 252) + 1):
+        ping = dict.fromkeys(joints.ports, instructions.ping(number))
+        wait_s = WAITS_S[1] if any((port, number) in named for port in ping) else WAITS_S[0]
+        spoilt = {port: talk.receivers[port].crc_errors for port in ping}
+        for port, heard in talk.ask(ping, dict.fromkeys(ping, 1), wait_s=wait_s).items():
+            twice = talk.receivers[port].crc_errors > spoilt[port]
+            if heard or twice:
+                firmware = heard[0].data[2] if heard and len(heard[0].data) == 3 else None
+                seen.append(
+                    Seen(
+                        bus=port, id=number, reply_id=number, replies=2 if twice else 1,
+                        joint=named.get((port, number), ""), mode=None, version=firmware,
+                        ranges=None,
+                    )
+                )  # fmt: skip
     return sorted(seen, key=lambda one: (one.bus, one.id))
 
 
-def read(joints: ServoMap, clock: Clock) -> list[Reading]:
-    """What every servo says now, each asked once. Raises DriverError if a port is not there."""
-    with SerialPorts(joints.ports) as ports:
-        answers = interview(Talk(ports, clock, joints))
+def readings(ports: Ports, clock: Clock, joints: ServoMap) -> list[Reading]:
+    """What every servo says now, each asked once."""
+    answers = interview(Talk(ports, clock, joints))
     return [_reading(name, joints, answers[name]) for name in joints.joints]
 
 
@@ -122,90 +103,53 @@ def _reading(name: str, joints: ServoMap, answer: Answers) -> Reading:
     )
 
 
-def check(joints: ServoMap, clock: Clock, *, for_s: float) -> Check:
-    """Compare servos with their map; then watch them for a while at the map's rate.
-
-    Raises:
-        DriverError: if a port cannot be opened, or went away.
-    """
-    with SerialPorts(joints.ports) as ports:
-        found = verdicts(joints, interview(Talk(ports, clock, joints)))
-    if any(finding.is_grave for finding in found):
-        return _checked(joints, found)
-    with DynamixelMotors(joints, clock, ports=lambda: SerialPorts(joints.ports)) as driver:
-        lost, periods = driver.reception.lost, 0
-        ends_s = clock.now_s() + for_s
-        while clock.now_s() < ends_s:
-            driver.read()
-            periods += 1
-        found += _moving(driver)
-        asked = max(1, periods * len(joints.joints))
-        answered = 1.0 - (driver.reception.lost - lost) / asked
-        if answered < LEAST_ANSWERED:
-            text = f"{1.0 - answered:.1%} of all answers came too late or not at all"
-            cure = "look at cable and latency timer, for another program, a busy computer"
-            found.append(Finding("all", "late", text, cure, is_grave=False))
-        return _checked(joints, found, answered=answered, late=driver.late)
+# --- one joint ---------------------------------------------------------------------------------
 
 
-def _moving(driver: DynamixelMotors) -> Iterator[Finding]:
-    """Whether speeds fit positions, of the joints that moved; what was said while they did."""
-    speeds = driver.speeds
-    for index, name in enumerate(driver.joints.joints):
-        ratio = float(speeds.ratio[index])
-        if math.isnan(ratio):
-            text = "it did not move: its speed, sign and scale could not be compared"
-            yield Finding(name, "not_moved", text, BY_HAND, is_grave=False)
-        elif abs(ratio - 1.0) > SCALE_SLACK:
-            text = f"its speed is {ratio:.2f} times that of its positions"
-            yield Finding(name, "speed_mismatch", text, "is its gear right? is its belt slack?")
-    for alarm in driver.alarms.on:
-        if alarm.code != "speed_mismatch":
-            yield Finding(alarm.who, alarm.code, alarm.cause, alarm.cure)
-
-
-def _checked(
-    joints: ServoMap, found: list[Finding], *, answered: float | None = None, late: int = 0
-) -> Check:
-    return Check(
-        loads=loads(joints),
-        joints=len(joints.joints),
-        findings=tuple(Line(**one._asdict()) for one in found),
-        answered=answered,
-        late=late,
+def bare(joint: Motor) -> Motor:
+    """The servo by its own angles, as many turns as it tells; its limit of current stays."""
+    assert isinstance(joint, JointServo)
+    most_rad = 2.0 * math.pi * MOST_TURNS
+    return msgspec.structs.replace(
+        joint,
+        sign=1,
+        offset_rad=0.0,
+        gear=1.0,
+        lower_rad=-most_rad,
+        upper_rad=most_rad,
+        torque_limit_nm=joint.torque_limit_nm / joint.gear,
     )
 
 
-def watch(joints: ServoMap, clock: Clock, *, every_s: float, for_s: float) -> Watched:
-    """What all joints say, again and again, and what is wrong; read at the map's rate.
+def resting(driver: MapDriver, ports: Ports, clock: Clock) -> str:
+    """What the only joint's servo says of its torque; "" where it gives none."""
+    assert isinstance(driver, DynamixelMotors)
+    ((name, _),) = driver.joints.joints.items()
+    answer = interview(Talk(ports, clock, driver.joints))[name]
+    if answer.settings is None:
+        return "silent"
+    return "enabled" if answer.value(table.TORQUE_ENABLE) else ""
+
+
+def set_zero(ports: Ports, clock: Clock, joints: ServoMap, at_rad: float) -> None:
+    """Let the only joint's servo say 0 where it stands, by its homing offset (20).
 
     Raises:
-        DriverError: if a servo is not what the map says, or a port went away.
+        DriverError: it does not say where it is, or it could not tell all of the joint's range
+            once it was without power; nothing is written then.
     """
-    with DynamixelMotors(joints, clock, ports=lambda: SerialPorts(joints.ports)) as driver:
-        ends_s = clock.now_s() + for_s
-        while (now_s := clock.now_s()) < ends_s:
-            state = driver.read()
-            while clock.now_s() < now_s + every_s:
-                state = driver.read()
-            heard = driver.reception
-            rows = [
-                Reading(
-                    joint=name,
-                    bus=one.port,
-                    id=one.id,
-                    model=one.model,
-                    status="alert" if heard.alerts[index] else "answers",
-                    q_rad=float(state.q[index]),
-                    qd_rad_s=float(state.qd[index]),
-                    tau_nm=float(state.tau[index]),
-                    winding_c=_or_none(float(state.temperature_c[index])),
-                    age_ms=_or_none(1000.0 * float(state.age_s[index])),
-                )
-                for index, (name, one) in enumerate(joints.joints.items())
-            ]
-            yield rows, tuple(map(str, driver.alarms.on))
-
-
-def _or_none(value: float) -> float | None:
-    return value if np.isfinite(value) else None
+    ((name, joint),) = joints.joints.items()
+    talk = Talk(ports, clock, joints)
+    answer = interview(talk)[name]
+    told = answer.measured(table.PRESENT_POSITION)
+    if answer.settings is None or told is None:
+        raise DriverError(f"{name} does not say where it is (nothing was changed)")
+    offset = answer.value(table.HOMING_OFFSET) + MIDDLE - told
+    meant = msgspec.structs.replace(joint, offset_rad=at_rad)
+    ends = [MIDDLE + meant.motor_rad(q) / RAD_A_PULSE for q in (joint.lower_rad, joint.upper_rad)]
+    # The e-manual: present position = actual position (0 to 4095 after power) + homing offset.
+    if min(ends) < max(0, offset) or max(ends) > TURN - 1 + min(0, offset):
+        text = f"{name} would not know after a loss of power in which turn it is: its range is"
+        cure = "leave --in-motor out and write offset_rad into the map, or turn its horn"
+        raise DriverError(f"{text} {min(ends):.0f} to {max(ends):.0f} pulses ({cure})")
+    arming.write(talk, table.HOMING_OFFSET, lambda _: offset)

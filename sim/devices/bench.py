@@ -8,8 +8,8 @@ from typing import cast
 
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.errors import ConfigError, Problem
-from robot.misfits import nearest
 from sim.devices.damiao import FLAWS, Damiao, Flaw
+from sim.devices.flaws import unknown
 from sim.devices.shaft import FreeShaft
 from sim.devices.wire import Wire
 
@@ -98,14 +98,7 @@ def _motor(
 
 
 def _check(wanted: JointMap, flaws: Mapping[str, str]) -> None:
-    problems: list[Problem] = []
-    for name, flaw in flaws.items():
-        if name not in wanted.joints:
-            cure = nearest(name, list(wanted.joints))
-            problems.append(Problem(f"there is no joint {name!r}", suggestion=cure))
-        if flaw not in FLAWS:
-            cure = nearest(flaw, list(FLAWS)) or f"one of {', '.join(FLAWS)}"
-            problems.append(Problem(f"unknown flaw {flaw!r}", suggestion=cure))
+    problems = unknown(flaws, joints=wanted.joints, known=FLAWS)
     for name, joint in wanted.joints.items():
         if joint.family.asking is None:
             text = f"{name}: a {joint.model} is not emulated"

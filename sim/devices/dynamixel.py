@@ -29,7 +29,7 @@ STILL_RAD_S = 0.05
 
 Flaw = Literal[
     "silent", "crc_errors", "half_packets", "late", "alert", "wrong_model", "twin", "wrong_mode",
-    "hot", "low_volts", "overload",
+    "hot", "low_volts", "overload", "slow_speed",
 ]  # fmt: skip
 """What can be wrong from the start, by name."""
 FLAWS: tuple[Flaw, ...] = get_args(Flaw)
@@ -63,6 +63,7 @@ class Trouble:
         halves: so many of its next answers end in the middle.
         later_s: it answers so much later.
         error: bits of hardware error that it falls into.
+        speed_scale: it reports its speed times this.
     """
 
     silent: bool = False
@@ -70,6 +71,7 @@ class Trouble:
     halves: int = 0
     later_s: float = 0.0
     error: int = 0
+    speed_scale: float = 1.0
 
 
 @dataclass
@@ -119,6 +121,8 @@ class Servo:
                 self.trouble.error = 1 << 4
             case "overload":
                 self.trouble.error = 1 << 5
+            case "slow_speed":
+                self.trouble.speed_scale = 0.5
             case "wrong_model":
                 self.memory.put(0, 2, 1060)
             case "wrong_mode":
@@ -318,7 +322,7 @@ class Servo:
         memory, shaft = self.memory, self.shaft
         amperes = self.tau_nm / self.kind.step_nm
         memory.measure(126, 2, int(amperes))
-        memory.measure(128, 4, int(shaft.qd_rad_s / SPEED_RAD_S))
+        memory.measure(128, 4, int(shaft.qd_rad_s * self.trouble.speed_scale / SPEED_RAD_S))
         memory.measure(132, 4, MIDDLE + math.floor(self._position_rad / PULSE_RAD))
         memory.measure(140, 4, MIDDLE + math.floor(self._profile_rad / PULSE_RAD))
         memory.measure(122, 1, int(abs(shaft.qd_rad_s / SPEED_RAD_S) > memory.get(24, 4)))

@@ -12,18 +12,13 @@ from typing import Self
 from robot.bringup import private_folder
 from robot.clock import WallClock
 from robot.closing import Closing
-from robot.drivers.motors.can import joint_map
-from robot.drivers.motors.can.emulated import INTERFACE
-from robot.drivers.motors.can.ports import socket_path
-from robot.drivers.motors.dynamixel import joint_map as servo_map
-from robot.drivers.motors.dynamixel.emulated import terminal_path
 from robot.errors import ProcessError
-from sim.devices import bench, servo_bench
+from sim.devices import families
 from sim.devices.main import READY, STILL, SWINGING
 
 STOPS_WITHIN_S = 3.0
 POLL_S = 0.005
-CAN, SERVOS = "sim.devices.main", "sim.devices.servo_main"
+PROGRAM = "sim.devices.main"
 
 
 class EmulatedMotors(Closing):
@@ -36,19 +31,13 @@ class EmulatedMotors(Closing):
         channels: paths of the sockets or terminals, by bus or port.
     """
 
-    interface = INTERFACE
-
     def __init__(self, file: Path, *, flaws: Mapping[str, str], is_still: bool = False) -> None:
         """Look at the map. Raises ConfigError as `bench.build`."""
         self._file, self._flaws, self._is_still = file, flaws, is_still
-        if servo_map.is_one(file):
-            servos = servo_map.load(file)
-            servo_bench.build(servos, flaws=flaws)
-            self._buses, self._path, self._program = tuple(servos.ports), terminal_path, SERVOS
-        else:
-            wanted = joint_map.load(file)
-            bench.build(wanted, flaws=flaws)
-            self._buses, self._path, self._program = tuple(wanted.buses), socket_path, CAN
+        wanted, family = families.loaded(file)
+        family.build(wanted, flaws=flaws)
+        self._lines, self._path = tuple(wanted.channels), family.path
+        self.interface = family.interface
         self._folder: private_folder.PrivateFolder | None = None
         self._child: subprocess.Popen[bytes] | None = None
         self.channels: Mapping[str, str] = {}
@@ -56,12 +45,12 @@ class EmulatedMotors(Closing):
     def __enter__(self) -> Self:
         """Start it, and wait until its sockets are there. Raises ProcessError if it ends."""
         self._folder = private_folder.create()
-        sockets = [self._path(self._folder.path, index) for index in range(len(self._buses))]
-        self.channels = dict(zip(self._buses, map(str, sockets), strict=True))
+        sockets = [self._path(self._folder.path, index) for index in range(len(self._lines))]
+        self.channels = dict(zip(self._lines, map(str, sockets), strict=True))
         flaws = [f"{joint}={flaw}" for joint, flaw in self._flaws.items()]
         motion = STILL if self._is_still else SWINGING
         self._child = subprocess.Popen(
-            [sys.executable, "-m", self._program, str(os.getpid()), str(self._file),
+            [sys.executable, "-m", PROGRAM, str(os.getpid()), str(self._file),
              str(self._folder.path), motion, *flaws],
             stdin=subprocess.DEVNULL, start_new_session=True,
         )  # fmt: skip

@@ -10,10 +10,7 @@ from pathlib import Path
 
 from robot.bus.lifeline import Stop, tie_to_parent
 from robot.clock import WallClock
-from robot.drivers.motors.can import joint_map
-from robot.drivers.motors.can.ports import socket_path
-from sim.devices import bench
-from sim.devices.server import CanServer
+from sim.devices import families
 
 STOP_SEEN_EVERY_S = 0.1
 STILL, SWINGING = "still", "swinging"
@@ -25,12 +22,11 @@ def main(parent_pid: str, file: str, folder: str, motion: str, *flaws: str) -> N
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
     clock, stop = WallClock(), Stop()
-    wanted = joint_map.load(file)
+    wanted, family = families.loaded(Path(file))
     pairs = dict(flaw.split("=", 1) for flaw in flaws)
-    built = bench.build(wanted, now_s=clock.now_s(), flaws=pairs, is_still=motion == STILL)
-    paths = [socket_path(Path(folder), index) for index in range(len(wanted.buses))]
-    wires = list(zip(paths, built.wires.values(), strict=True))
-    with CanServer(wires, built.devices, clock) as server:
+    built = family.build(wanted, now_s=clock.now_s(), flaws=pairs, is_still=motion == STILL)
+    paths = [family.path(Path(folder), index) for index in range(len(wanted.channels))]
+    with family.serve(paths, built, clock) as server:
         (Path(folder) / READY).touch()
         while not stop:
             server.serve(clock.now_s() + STOP_SEEN_EVERY_S)

@@ -9,9 +9,9 @@ from typing import Self, cast
 from robot.clock import SimulatedClock
 from robot.closing import Closing
 from robot.drivers.motors.dynamixel.joint_map import JointServo, ServoMap
-from robot.errors import ConfigError, DriverError, Problem
-from robot.misfits import nearest
+from robot.errors import ConfigError, DriverError
 from sim.devices.dynamixel import FLAWS, Flaw, Kind, Servo
+from sim.devices.flaws import unknown
 from sim.devices.serial_line import Line
 from sim.devices.shaft import FreeShaft, Shaft
 
@@ -57,7 +57,8 @@ def build(
         ConfigError: if a joint or a flaw is unknown.
     """
     flaws = flaws or {}
-    _check(wanted, flaws)
+    if problems := unknown(flaws, joints=wanted.joints, known=FLAWS):
+        raise ConfigError(problems)
     lines = {name: Line(baud_hz=port.baud_hz, now_s=now_s) for name, port in wanted.ports.items()}
     servos: dict[str, Servo] = {}
     for name, joint in wanted.joints.items():
@@ -95,19 +96,6 @@ def _servo(joint: JointServo, now_s: float, *, swing_rad_s: float, ahead_rad: fl
     shaft.step_s = STEP_S
     shaft.qd_rad_s = swing_rad_s
     return servo_on(joint, shaft, now_s)
-
-
-def _check(wanted: ServoMap, flaws: Mapping[str, str]) -> None:
-    problems: list[Problem] = []
-    for name, flaw in flaws.items():
-        if name not in wanted.joints:
-            cure = nearest(name, list(wanted.joints))
-            problems.append(Problem(f"there is no joint {name!r}", suggestion=cure))
-        if flaw not in FLAWS:
-            cure = nearest(flaw, list(FLAWS)) or f"one of {', '.join(FLAWS)}"
-            problems.append(Problem(f"unknown flaw {flaw!r}", suggestion=cure))
-    if problems:
-        raise ConfigError(problems)
 
 
 class DirectPorts(Closing):

@@ -1,15 +1,13 @@
 """A driver of CAN motors on emulated wires, in simulated time."""
 
-import itertools
-import os
 from pathlib import Path
 
 import msgspec
 import numpy as np
 
 from robot.clock import SimulatedClock
-from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
-from robot.drivers.motor_bus import MotorCommand, MotorState
+from robot.drivers.body_sample import BodySample
+from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.can import joint_map
 from robot.drivers.motors.can.driver import CanMotors
 from robot.drivers.motors.can.joint_map import Bus, JointMap, JointMotor
@@ -18,7 +16,7 @@ from robot.se3 import Array
 from sim.devices.bench import Bench, build
 from sim.devices.damiao import Damiao, Flaw
 from sim.devices.direct import DirectPorts
-from tests.fakes.motors import motor_state
+from tests.fakes.motor_rig import MotorRig, felt, lines_of_its_own
 
 ARM = """\
 rate_hz: 500
@@ -54,20 +52,12 @@ def limbs(buses: int, joints: int, *, rate_hz: int = 500) -> JointMap:
     )  # fmt: skip
 
 
-_numbers = itertools.count()
-
-
 def with_channels_of_its_own(joints: JointMap) -> JointMap:
-    """A channel is claimed on the whole machine, where other tests run at the same time."""
-    prefix = f"rig-{os.getpid()}-{next(_numbers)}"
-    buses = {
-        name: msgspec.structs.replace(bus, channel=f"{prefix}-{bus.channel}")
-        for name, bus in joints.buses.items()
-    }
-    return msgspec.structs.replace(joints, buses=buses)
+    """A map whose buses no other test claims."""
+    return msgspec.structs.replace(joints, buses=lines_of_its_own(joints.buses, "channel"))
 
 
-class Rig:
+class Rig(MotorRig):
     """A driver, its motors, and a clock."""
 
     def __init__(self, joints: JointMap, **flaws: Flaw) -> None:
@@ -89,23 +79,6 @@ class Rig:
     def motor(self, name: str) -> Damiao:
         """The emulated motor of a joint."""
         return self.bench.motors[name]
-
-    def hold(self, q: float = 0.5, *, kp: float = 20.0, kd: float = 1.0) -> MotorCommand:
-        """A command to hold a posture."""
-        n = len(self.joints.joints)
-        return MotorCommand(
-            self.clock.now_s(), np.full(n, q), np.zeros(n), np.zeros(n), np.full(n, kp),
-            np.full(n, kd),
-        )  # fmt: skip
-
-    def cycle(self, count: int = 1, command: MotorCommand | None = None, **hold) -> MotorState:
-        """Write and read, so many periods."""
-        for _ in range(count):
-            asked = command or self.hold(**hold)
-            asked.stamp_s = self.clock.now_s()
-            self.driver.write(asked)
-            state = self.driver.read()
-        return state
 
 
 def can_map(robot: RobotDescription, *, a_bus: int = 5) -> JointMap:
@@ -150,17 +123,11 @@ class CanPlant:
 
     def read(self) -> BodySample:
         devices = self._rig.bench.devices
-        state = motor_state(
+        return felt(
             self.q,
-            stamp_s=self._rig.clock.now_s(),
-            qd=np.array([motor.shaft.qd_rad_s for motor in devices]),
-            tau=np.array([motor.tau_nm for motor in devices]),
-            watchdog=any(motor.status != 1 for motor in devices),
-        )
-        state.command_stamp_s = self.commands[-1].stamp_s if self.commands else -np.inf
-        zero = np.zeros(3)
-        stamp_s = state.stamp_s
-        empty = np.zeros((2, 6))
-        return BodySample(
-            state, ImuReading(stamp_s, zero, zero), ForceReading(stamp_s, empty, empty)
+            [motor.shaft.qd_rad_s for motor in devices],
+            [motor.tau_nm for motor in devices],
+            now_s=self._rig.clock.now_s(),
+            let_go=any(motor.status != 1 for motor in devices),
+            told_s=self.commands[-1].stamp_s if self.commands else -np.inf,
         )

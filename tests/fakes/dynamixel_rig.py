@@ -1,15 +1,13 @@
 """A driver of servos on emulated lines, in simulated time."""
 
-import itertools
-import os
 from pathlib import Path
 
 import msgspec
 import numpy as np
 
 from robot.clock import SimulatedClock
-from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
-from robot.drivers.motor_bus import MotorCommand, MotorState
+from robot.drivers.body_sample import BodySample
+from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.dynamixel import joint_map
 from robot.drivers.motors.dynamixel.driver import DynamixelMotors
 from robot.drivers.motors.dynamixel.joint_map import JointServo, Port, ServoMap
@@ -17,7 +15,7 @@ from robot.model.description import RobotDescription
 from robot.se3 import Array
 from sim.devices.dynamixel import SPEED_RAD_S, Flaw, Servo
 from sim.devices.servo_bench import DirectPorts, build
-from tests.fakes.motors import motor_state
+from tests.fakes.motor_rig import MotorRig, felt, lines_of_its_own
 
 ARM = """\
 rate_hz: 250
@@ -37,21 +35,15 @@ def arm(folder: Path, text: str = ARM) -> ServoMap:
     return joint_map.load(path)
 
 
-_numbers = itertools.count()
-
-
 def with_devices_of_its_own(joints: ServoMap) -> ServoMap:
-    """A port is claimed on the whole machine, where other tests run at the same time."""
-    prefix = f"rig-{os.getpid()}-{next(_numbers)}"
-    ports = {
-        name: msgspec.structs.replace(port, device=f"{prefix}-{port.device}")
-        for name, port in joints.ports.items()
-    }
-    return msgspec.structs.replace(joints, ports=ports)
+    """A map whose ports no other test claims."""
+    return msgspec.structs.replace(joints, ports=lines_of_its_own(joints.ports, "device"))
 
 
-class Rig:
+class Rig(MotorRig):
     """A driver, its servos, and a clock."""
+
+    KP, KD = 8.0, 0.5
 
     def __init__(self, joints: ServoMap, *, is_still: bool = False, **flaws: Flaw) -> None:
         self.joints = joints = with_devices_of_its_own(joints)
@@ -73,23 +65,6 @@ class Rig:
     def servo(self, name: str) -> Servo:
         """The emulated servo of a joint."""
         return self.bench.servos[name]
-
-    def hold(self, q: float = 0.5, *, kp: float = 8.0, kd: float = 0.5) -> MotorCommand:
-        """A command to hold a posture."""
-        n = len(self.joints.joints)
-        return MotorCommand(
-            self.clock.now_s(), np.full(n, q), np.zeros(n), np.zeros(n), np.full(n, kp),
-            np.full(n, kd),
-        )  # fmt: skip
-
-    def cycle(self, count: int = 1, command: MotorCommand | None = None, **hold) -> MotorState:
-        """Write and read, so many periods."""
-        for _ in range(count):
-            asked = command or self.hold(**hold)
-            asked.stamp_s = self.clock.now_s()
-            self.driver.write(asked)
-            state = self.driver.read()
-        return state
 
 
 def servo_map(robot: RobotDescription, *, a_port: int = 5) -> ServoMap:
@@ -151,15 +126,11 @@ class ServoPlant:
 
     def read(self) -> BodySample:
         servos = self._rig.bench.servos.values()
-        state = motor_state(
+        return felt(
             self.q,
-            stamp_s=self._rig.clock.now_s(),
-            qd=np.array([servo.shaft.qd_rad_s for servo in servos]),
-            tau=np.array([servo.tau_nm for servo in servos]),
-            watchdog=any(not servo.is_on for servo in servos),
-        )
-        state.command_stamp_s = self.commands[-1].stamp_s if self.commands else -np.inf
-        zero, empty, stamp_s = np.zeros(3), np.zeros((2, 6)), state.stamp_s
-        return BodySample(
-            state, ImuReading(stamp_s, zero, zero), ForceReading(stamp_s, empty, empty)
+            [servo.shaft.qd_rad_s for servo in servos],
+            [servo.tau_nm for servo in servos],
+            now_s=self._rig.clock.now_s(),
+            let_go=any(not servo.is_on for servo in servos),
+            told_s=self.commands[-1].stamp_s if self.commands else -np.inf,
         )

@@ -108,7 +108,8 @@ def log(options: Log) -> None:
 
       humanoid motors log slow.csv --emulated --for 5 --every 0.1
 
-    Ctrl-C ends it, and the file is whole. A robot that is at work is listened to.
+    Ctrl-C ends it, and the file is whole. A robot that is at work is listened to, on CAN; what
+    another program reads of a serial port nobody else hears.
     """
     from executive.frontends.motors import commands
 
@@ -128,6 +129,8 @@ def zero(options: Zero) -> None:
       humanoid motors zero left_knee --at 0 --map my_leg/can.yaml
 
       humanoid motors zero elbow --at 1.571 --in-motor --map my_arm/can.yaml
+
+      humanoid motors zero wrist --at 0 --map my_arm/dynamixel.yaml
     """
     from executive.frontends.motors import commands
 

@@ -14,10 +14,11 @@ from executive.frontends.motors import tables
 from executive.frontends.motors.options import Check, Jog, Log, OfMap, Scan, Watch, Zero
 from executive.frontends.new_files import refuse_taken
 from executive.frontends.output import say, table_screen, write_json
-from robot.bringup import motor_bench, motor_log, motor_tools, servo_tools
+from robot.bringup import can_tools, motor_bench, motor_log, motor_tools
 from robot.bringup.end_wish import EndWish
-from robot.bringup.motor_tools import Joints, Seen
-from robot.bringup.servo_tools import Servos
+from robot.bringup.motor_reports import Check as Checked
+from robot.bringup.motor_reports import Seen, Watched
+from robot.bringup.motor_tools import Joints
 from robot.clock import WallClock
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
@@ -30,16 +31,15 @@ def scan(asked: Scan) -> int:
         DriverError: if one of them cannot be opened.
     """
     if asked.channel:
-        buses = motor_tools.buses_at(asked.channel, asked.interface)
-        found = motor_tools.scan(buses, WallClock(), up_to=asked.up_to)
-        return _seen(found, asked, label="", buses=len(buses))
-    with _any_joints(asked) as (joints, label):
-        if isinstance(joints, Servos):
-            found = servo_tools.scan(joints, WallClock(), up_to=asked.up_to)
-            return _seen(found, asked, label=label, buses=len(joints.ports))
-        buses = joints.buses
-        found = motor_tools.scan(buses, WallClock(), up_to=asked.up_to, joints=joints)
-        return _seen(found, asked, label=label, buses=len(buses))
+        buses = can_tools.nameless(asked.channel, asked.interface)
+        return _scanned(buses, asked, label="")
+    with _joints(asked) as (joints, label):
+        return _scanned(joints, asked, label=label)
+
+
+def _scanned(joints: Joints, asked: Scan, *, label: str) -> int:
+    found = motor_tools.scan(joints, WallClock(), up_to=asked.up_to)
+    return _seen(found, asked, label=label, buses=len(joints.channels))
 
 
 def _seen(found: Sequence[Seen], asked: Scan, *, label: str, buses: int) -> int:
@@ -60,11 +60,8 @@ def _seen(found: Sequence[Seen], asked: Scan, *, label: str, buses: int) -> int:
 
 def read(asked: OfMap) -> int:
     """Say what every motor measures; returns the exit status."""
-    with _any_joints(asked) as (joints, label):
-        if isinstance(joints, Servos):
-            rows = servo_tools.read(joints, WallClock())
-        else:
-            rows = motor_tools.read(joints, WallClock())
+    with _joints(asked) as (joints, label):
+        rows = motor_tools.read(joints, WallClock())
     silent = [row.joint for row in rows if row.status == "silent"]
     status = ExitStatus.FAILED if silent else ExitStatus.DONE
     if asked.as_json:
@@ -79,13 +76,10 @@ def read(asked: OfMap) -> int:
 
 def check(asked: Check) -> int:
     """Compare motors with their map; returns the exit status."""
-    with _any_joints(asked) as (joints, label):
+    with _joints(asked) as (joints, label):
         if not asked.as_json:
             say(f"Asking {len(joints.joints)} motors{label}, then reading for {asked.for_s:g} s.")
-        if isinstance(joints, Servos):
-            found = servo_tools.check(joints, WallClock(), for_s=asked.for_s)
-        else:
-            found = motor_tools.check(joints, WallClock(), for_s=asked.for_s)
+        found = motor_tools.check(joints, WallClock(), for_s=asked.for_s)
     status = ExitStatus.FAILED if found.is_grave else ExitStatus.DONE
     if asked.as_json:
         write_json({"emulated": bool(label), "is_grave": found.is_grave, "check": found})
@@ -99,7 +93,7 @@ def check(asked: Check) -> int:
     return status
 
 
-def _tell(found: motor_tools.Check) -> None:
+def _tell(found: Checked) -> None:
     still = [one for one in found.findings if one.code == "not_moved"]
     for one in found.findings:
         if one in still:
@@ -117,18 +111,14 @@ def _tell(found: motor_tools.Check) -> None:
 
 def watch(asked: Watch) -> int:
     """Show what joints measure, again and again; returns the exit status."""
-    with _any_joints(asked) as (joints, label):
-        clock, every_s, for_s = WallClock(), asked.every_s, asked.for_s
-        if isinstance(joints, Servos):
-            shown = servo_tools.watch(joints, clock, every_s=every_s, for_s=for_s)
-        else:
-            shown = motor_tools.watch(joints, clock, every_s=every_s, for_s=for_s)
+    with _joints(asked) as (joints, label):
+        shown = motor_tools.watch(joints, WallClock(), every_s=asked.every_s, for_s=asked.for_s)
         with suppress(KeyboardInterrupt):
             _show(shown, as_json=asked.as_json, label=label)
     return ExitStatus.DONE
 
 
-def _show(shown: motor_tools.Watched, *, as_json: bool, label: str) -> None:
+def _show(shown: Watched, *, as_json: bool, label: str) -> None:
     if as_json:
         for rows, alarms in shown:
             write_json({"emulated": bool(label), "joints": rows, "alarms": alarms})
@@ -234,40 +224,21 @@ def _tell_of_jog(moved: motor_bench.Jogged, *, emulated: bool, as_json: bool) ->
 
 @contextmanager
 def _joints(asked: OfMap, *, is_still: bool = False) -> Generator[tuple[Joints, str]]:
-    """A joint map of motors on CAN, as `_any_joints`.
-
-    Raises:
-        ConfigError: with everything that is wrong; or it is a map of servos.
-    """
-    with _any_joints(asked, is_still=is_still) as (joints, label):
-        if isinstance(joints, Servos):
-            cure = "scan, read, check and watch know servos"
-            text = "this command knows motors on CAN only"
-            raise ConfigError([Problem(text, joints.file, suggestion=cure)])
-        yield joints, label
-
-
-@contextmanager
-def _any_joints(asked: OfMap, *, is_still: bool = False) -> Generator[tuple[Joints | Servos, str]]:
     """The joint map, and how it is said that its motors are emulated where they are.
 
     Raises:
         ConfigError: with everything that is wrong in the map and in what was asked.
     """
     path = motor_tools.map_path(asked.robot, asked.map_file)
-    is_servos = servo_tools.is_one(path)
     if not asked.emulated:
         if asked.fail:
             cure = "add --emulated, or leave --fail out"
             raise ConfigError([Problem("only emulated motors fail on request", suggestion=cure)])
-        yield (servo_tools if is_servos else motor_tools).load_map(path), ""
+        yield motor_tools.load_map(path), ""
         return
     flaws = _flaws(asked.fail or ())
     with REALITY.motors(path, flaws=flaws, is_still=is_still) as buses:
-        if is_servos:
-            yield servo_tools.load_map(path, buses.channels), " (emulated)"
-        else:
-            yield motor_tools.load_map(path, buses.channels, by=buses.interface), " (emulated)"
+        yield motor_tools.load_map(path, buses.channels, by=buses.interface), " (emulated)"
 
 
 def _flaws(fail: Sequence[str]) -> Mapping[str, str]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from rich.table import Table
 
-from robot.bringup.motor_tools import Load, Reading, Seen
+from robot.bringup.motor_reports import Load, Reading, Seen
 
 
 def of_scan(found: Sequence[Seen]) -> Table:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import IntEnum
 from typing import Literal, NamedTuple
 
@@ -21,6 +22,16 @@ class Level(IntEnum):
     HOLD = 3
     SIT = 4
 
+
+DOES: dict[Level, str] = {
+    Level.OK: "nothing; what was lost is bridged",
+    Level.WARN: "says so",
+    Level.DERATE: "gives less torque; the executive walks slower",
+    Level.HOLD: "keeps every joint's last target, whatever is commanded; the task waits",
+    Level.SIT: "obeys again, so that the controller squats within 2 to 3 s and stays low; the task "
+    "ends",
+}
+"""What drivers and who commands them do at each level, for people."""
 
 NAMES: dict[Level, Literal["WARN", "DERATE", "HOLD", "SIT"]] = {
     Level.WARN: "WARN",
@@ -53,11 +64,30 @@ class Alarm(NamedTuple):
         return f"{self.who}: {self.cause} ({self.cure})"
 
 
-BY_STATUS: dict[str, Level] = {
-    "over_current": Level.HOLD,
-    "overload": Level.HOLD,
-}
-"""What a motor's fault leads to; one that is not named here: SIT, latched."""
+class Kind(NamedTuple):
+    """A row of a table of alarms (`docs/safety.md` is made of them).
+
+    Attributes:
+        code: for programs.
+        level: what is done.
+        when: what it takes, for people.
+        within: how long that takes.
+        is_latched: whether only `reset` ends it.
+    """
+
+    code: str
+    level: Level
+    when: str
+    within: str
+    is_latched: bool = False
+
+    def alarm(self, who: str, cause: str, cure: str, *, code: str = "") -> Alarm:
+        """One of this kind; by another code where a row stands for several."""
+        return Alarm(code or self.code, who, self.level, cause, cure, self.is_latched)
+
+
+BY_STATUS = ("over_current", "overload")
+"""Faults of a motor that end by themselves, and lead to HOLD; one that is not named here: SIT."""
 
 
 class Alarms:
@@ -102,3 +132,25 @@ class Alarms:
     def reset(self) -> None:
         """End all of them: what is still wrong sounds again."""
         self._on.clear()
+
+
+class News:
+    """Says what is new of alarms, a line each."""
+
+    def __init__(self, alarms: Alarms, tell: Callable[[str], None]) -> None:
+        """Nothing was said yet; `tell` hears the lines."""
+        self._alarms, self._tell = alarms, tell
+        self._told = frozenset[str]()
+
+    def say(self, now_s: float) -> None:
+        """Say which began since the last time, or got worse."""
+        if not self._alarms.on and not self._told:
+            return
+        on = {f"{one.code} {one.who} {one.level.name}": one for one in self._alarms.on}
+        for key in on.keys() - self._told:
+            self._tell(f"{now_s:.3f} s, {on[key].level.name}: {on[key]}")
+        self._told = frozenset(on)
+
+
+def untold(_line: str) -> None:
+    """Hear nothing."""

@@ -10,7 +10,7 @@ import numpy as np
 from robot.clock import Clock
 from robot.closing import Closing
 from robot.drivers.motor_bus import MIT_MODE, MotorBus, MotorCommand, MotorState
-from robot.drivers.motors.alarms import Alarms, Level
+from robot.drivers.motors.alarms import Alarms, News, untold
 from robot.drivers.motors.can import arming, joint_map, watching
 from robot.drivers.motors.can.coding import Coding
 from robot.drivers.motors.can.emulated import EmulatedBuses, PlantClock, buses_in
@@ -24,22 +24,23 @@ from robot.drivers.motors.can.reception import Reception
 from robot.drivers.motors.can.sending import TransmitQueue
 from robot.drivers.motors.can.verdicts import verdicts
 from robot.drivers.motors.claim import Claim
+from robot.drivers.motors.findings import refuse_grave
 from robot.drivers.motors.gearing import Gearing
+from robot.drivers.motors.holding import Holding
+from robot.drivers.motors.life import Life, not_let_go
 from robot.drivers.motors.limiter import Limiter, Measured
+from robot.drivers.motors.periods import Periods
 from robot.drivers.motors.speed_check import SpeedCheck
+from robot.drivers.motors.watching import SILENT_PERIODS
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.se3 import Array
 
 INHERITS_PERIODS = 3
 """For so many at most replies are waited for of motors that another program left enabled."""
-LOOKS = 2
-"""A period, for what came in: to wake up for every reply would take a third of a core more."""
 
 STALE_CALLS = 16
 """More than an interface's receive buffer holds."""
-SAME_S = 1e-6
-"""Sums of periods are not exact, and the time of a simulation goes on in whole periods."""
 
 
 def make(wiring: Wiring) -> MotorBus:
@@ -60,10 +61,6 @@ def make(wiring: Wiring) -> MotorBus:
     )
 
 
-def _nobody(_line: str) -> None:
-    """Hear nothing."""
-
-
 class CanMotors(Closing):
     """All motors of a joint map.
 
@@ -73,7 +70,6 @@ class CanMotors(Closing):
     Attributes:
         joints: the map, in the order of every array.
         alarms: what is wrong now.
-        late: periods that began late by more than one.
     """
 
     capabilities = MIT_MODE
@@ -84,7 +80,7 @@ class CanMotors(Closing):
         clock: Clock,
         *,
         ports: Callable[[], Ports],
-        tell: Callable[[str], None] = _nobody,
+        tell: Callable[[str], None] = untold,
         lets_go: bool = False,
     ) -> None:
         """Know the motors; nothing is opened.
@@ -99,25 +95,23 @@ class CanMotors(Closing):
         """
         self.joints = joints
         self.alarms = Alarms()
-        self.late = 0
-        self._tell, self._told = tell, frozenset[str]()
+        self._tell, self._news = tell, News(self.alarms, tell)
         self._lets_go = lets_go
-        self._periods = self._lost_before = 0
-        self._clock, self._opens = clock, ports
+        self._commanded = self._lost_before = 0
+        self._clock, self._periods = clock, Periods(clock, joints.period_s)
         self._motors = list(joints.joints.values())
         self._gearing, self.limiter = Gearing(joints), Limiter(joints)
         self._refreshes = _refreshes(joints)
         self._claim = Claim(f"{bus.interface}:{bus.channel}" for bus in joints.buses.values())
+        self._life = Life(ports, self._claim)
         self.queues = {bus: TransmitQueue(bus) for bus in joints.buses}
-        self._ports: Ports | None = None
         self._is_armed = False
         self._asked = False
         self._asks = True
         self._claimed_s = np.inf
         self._unset: list[tuple[str, Frame]] = []
         self._sent: MotorCommand | None = None
-        self._held: MotorCommand | None = None
-        self._tick_s = 0.0
+        self._holding = Holding()
 
     def __enter__(self) -> Self:
         """Open the buses, and ask every motor who it is; nothing is enabled.
@@ -129,29 +123,20 @@ class CanMotors(Closing):
             DriverError: if a bus cannot be opened, or a motor is not what the map says: with
                 everything that disagrees.
         """
-        ports = self._opens()
-        ports.__enter__()
         self.ranges = [one.expected for one in self._motors]
         self._is_known = False
-        try:
-            if self._claim.is_free():
-                self._interview(ports)
-        except DriverError:
-            ports.close()
-            raise
-        self._ports, self._asks = ports, self._is_known
+        self._asks = self._life.open(self._interview)
         self._understand()
         self._watch = watching.Watch(self.joints, self.alarms)
-        self._tick_s = self._clock.now_s() + self.joints.period_s
-        for _ in range(watching.SILENT_PERIODS):
+        self._periods.begin()
+        for _ in range(SILENT_PERIODS):
             self.read()
         return self
 
     def _interview(self, ports: Ports) -> None:
         """Ask every motor who it is. Raises DriverError with everything that disagrees."""
         answers = interview(ports, self._clock, self.joints)
-        if grave := [str(one) for one in verdicts(self.joints, answers) if one.is_grave]:
-            raise DriverError("the motors are not enabled:\n  " + "\n  ".join(grave))
+        refuse_grave(verdicts(self.joints, answers), "motors")
         self.ranges = [
             found if (asking := one.family.asking) and (found := answers[name].ranges(asking))
             else one.expected
@@ -174,30 +159,28 @@ class CanMotors(Closing):
         Raises:
             DriverError: if they were to be disabled, and one was not seen to do so.
         """
-        ports, self._ports = self._ports, None
-        if ports is None:
+        self._life.close(self._leave, self._left)
+
+    def _leave(self, ports: Ports) -> None:
+        """Damping, or disabled. Raises DriverError if one was not seen to be disabled."""
+        if not self._is_armed:
             return
-        try:
-            if self._is_armed and self._lets_go:
-                on = arming.disable(ports, self._clock, self.joints, self.ranges)
-                if on:
-                    text = f"not seen to let go: {', '.join(on)}"
-                    raise DriverError(f"{text} (cut the power before you touch them)")
-            elif self._is_armed:
-                arming.leave_damping(ports, self._clock, self.joints, self.ranges)
-        finally:
-            self._is_armed = False
-            self._claim.release()
-            ports.close()
-            if self._periods:
-                self._tell(self._summary())
+        if not self._lets_go:
+            arming.leave_damping(ports, self._clock, self.joints, self.ranges)
+        elif on := arming.disable(ports, self._clock, self.joints, self.ranges):
+            raise not_let_go(on)
+
+    def _left(self) -> None:
+        self._is_armed = False
+        if self._commanded:
+            self._tell(self._summary())
 
     def _summary(self) -> str:
         """How well replies came since the motors were enabled."""
         joints, lost = len(self.joints.joints), self.reception.lost - self._lost_before
-        share = lost / (self._periods * joints)
+        share = lost / (self._commanded * joints)
         return (
-            f"CAN: {joints} joints, {self._periods} periods at {self.joints.rate_hz} Hz, {lost} "
+            f"CAN: {joints} joints, {self._commanded} periods at {self.joints.rate_hz} Hz, {lost} "
             f"replies late ({share:.3%}), {self.late} periods late"
         )
 
@@ -207,23 +190,30 @@ class CanMotors(Closing):
         Where that one died a moment ago its motors are still enabled: they are asked at once, and
         the next command goes to them as they are.
         """
-        ports = self._opened()
-        if self._claim.is_held:
-            return True
-        if taken := self._claim.take():
-            for _ in range(STALE_CALLS):  # what nobody read meanwhile is of the past
-                if not ports.receive_packed():
-                    break
-            self._claimed_s = self._clock.now_s()
-            self._tick_s = self._claimed_s + self.joints.period_s
-            self._asks = True
-            self.reception.forget_where()
-        return taken
+        return self._life.claim(self._begin)
+
+    def _begin(self, ports: Ports) -> None:
+        for _ in range(STALE_CALLS):  # what nobody read meanwhile is of the past
+            if not ports.receive_packed():
+                break
+        self._claimed_s = self._clock.now_s()
+        self._periods.begin()
+        self._asks = True
+        self.reception.forget_where()
+
+    @property
+    def late(self) -> int:
+        """Periods that began late by more than one."""
+        return self._periods.late
 
     @property
     def speeds(self) -> SpeedCheck:
         """How reported speeds compare with reported positions."""
-        return self._watch.speeds
+        return self._watch.joints.speeds
+
+    def status_of(self, index: int) -> str:
+        """What a joint's motor says of itself, in one word."""
+        return self._motors[index].family.status(int(self.reception.status[index])).code
 
     def reset(self) -> None:
         """Forget every alarm, also latched ones; motors that let go are armed by the next command.
@@ -232,41 +222,35 @@ class CanMotors(Closing):
         """
         self.alarms.reset()
         self._watch.forget()
-        self._is_armed, self._held, self._sent = False, None, None
+        self._is_armed, self._sent = False, None
+        self._holding.forget()
         self.limiter.forget()
 
     # --- read ------------------------------------------------------------------------------------
 
     def read(self) -> MotorState:
         """The state at the end of this period. Raises DriverError if all buses went away."""
-        ports = self._opened()
+        ports = self._life.lines
         commands = self._asked
         if not commands and self._asks:
             self._ask()
-        now_s = self._clock.now_s()
-        if now_s > self._tick_s + self.joints.period_s:
-            self.late += 1
-            self._tick_s = now_s
-        until_s = self._tick_s
-        while True:
-            look_s = self._clock.now_s() + self.joints.period_s / LOOKS
-            self._clock.sleep_until(min(until_s, look_s))
-            if came := ports.receive_packed():
-                for bus in self.reception.take(came, self._clock.now_s()):
-                    self._watch.bus_off(bus)
-            if any(queue.waiting for queue in self.queues.values()):
-                self._flush(ports)
-            if (ended_s := self._clock.now_s()) >= until_s - SAME_S:
-                break
+        self._periods.wait(self._hear)
         for bus, why in ports.gone.items():
             self._watch.unplugged(bus, why)
-        begun_s = ended_s if ended_s - until_s < SAME_S else until_s
-        self._tick_s = begun_s + self.joints.period_s
         self._asked = False
         state = self._state()
         if not commands:
             self._asks = self._claim.is_held or self._is_alone()
         return state
+
+    def _hear(self) -> None:
+        """Take what came in, and send what the interfaces had no room for."""
+        ports = self._life.lines
+        if came := ports.receive_packed():
+            for bus in self.reception.take(came, self._clock.now_s()):
+                self._watch.bus_off(bus)
+        if any(queue.waiting for queue in self.queues.values()):
+            self._flush(ports)
 
     def _is_alone(self) -> bool:
         """Whether motors tell nothing unless they are asked from here.
@@ -277,7 +261,7 @@ class CanMotors(Closing):
         heard = self.reception
         if self._asks:
             return heard.most_replies < 2
-        if int(heard.misses.min()) >= watching.SILENT_PERIODS:
+        if int(heard.misses.min()) >= SILENT_PERIODS:
             return True
         return bool(heard.misses.any()) and self._claim.is_free()
 
@@ -286,9 +270,9 @@ class CanMotors(Closing):
         heard.end_period()
         q, qd, tau = heard.at_joints(self._gearing)
         self._watch.look(now_s, heard, q, qd, self.queues, is_armed=self._is_armed)
-        self._periods += self._is_armed
-        if self._is_armed and (self.alarms.on or self._told):
-            self._tell_alarms(now_s)
+        self._commanded += self._is_armed
+        if self._is_armed:
+            self._news.say(now_s)
         status = self._motors[0].family.status
         odd = set(heard.status.tolist()) - {ENABLED}
         let_go = any(status(code).code == watching.LOST for code in odd)
@@ -332,18 +316,11 @@ class CanMotors(Closing):
         self._unset = arming.watchdogs(self.joints, self.joints.watchdog_s)
         return True
 
-    def _tell_alarms(self, now_s: float) -> None:
-        """Say what is new."""
-        on = {f"{alarm.code} {alarm.who}": alarm for alarm in self.alarms.on}
-        for key in on.keys() - self._told:
-            self._tell(f"{now_s:.3f} s, {on[key].level.name}: {on[key]}")
-        self._told = frozenset(on)
-
     def _ask(self) -> None:
         """Ask every motor for feedback: nobody commanded since the last reading."""
         for bus, frames in self._refreshes.items():
             self.queues[bus].put(frames)
-        self._flush(self._opened())
+        self._flush(self._life.lines)
 
     # --- write -----------------------------------------------------------------------------------
 
@@ -356,7 +333,7 @@ class CanMotors(Closing):
             DriverError: if a value is not finite or a shape is wrong (nothing is sent), another
                 driver commands, or a motor cannot be enabled.
         """
-        ports = self._opened()
+        ports = self._life.lines
         self.limiter.check(command)
         if not self.claim():
             raise DriverError("another controller commands the motors")
@@ -366,12 +343,13 @@ class CanMotors(Closing):
             else:
                 self._arm(ports)
             self._is_armed = True
-            self._lost_before, self._periods = self.reception.lost, 0
+            self._lost_before, self._commanded = self.reception.lost, 0
             self.reception.status[:] = ENABLED
-            self._tick_s = self._clock.now_s() + self.joints.period_s
+            self._periods.begin()
         q, qd, _ = self.reception.at_joints(self._gearing)
         measured = Measured(q, qd, self.reception.temperature_c)
-        limited = self.limiter.apply(self._decided(command, q), measured)
+        wanted = self._holding.decided(command, self.alarms.level, obeyed=self._sent, q=q)
+        limited = self.limiter.apply(wanted, measured)
         self._sent = self._send(ports, limited)
         # Behind the first commands: who left the motors may have switched their watchdogs off.
         self._unset = [(bus, frame) for bus, frame in self._unset if not ports.send(bus, frame)]
@@ -383,20 +361,6 @@ class CanMotors(Closing):
             self._interview(ports)
             self._understand()
         arming.arm(ports, self._clock, self.joints, self.ranges)
-
-    def _decided(self, command: MotorCommand, q: Array) -> MotorCommand:
-        """The command, or what an alarm wants in its place."""
-        if self.alarms.level != Level.HOLD:
-            self._held = None
-            return command
-        if self._sent is None:
-            return MotorCommand.damping(len(q), command.stamp_s)
-        if self._held is None:
-            last = self._sent
-            q_des = np.where(last.kp > 0.0, last.q_des, q)
-            self._held = MotorCommand(0.0, q_des, np.zeros_like(q), last.tau_ff, last.kp, last.kd)
-        held = self._held
-        return MotorCommand(command.stamp_s, held.q_des, held.qd_des, held.tau_ff, held.kp, held.kd)
 
     def _send(self, ports: Ports, command: MotorCommand) -> MotorCommand:
         gearing = self._gearing
@@ -423,11 +387,6 @@ class CanMotors(Closing):
         now_s = self._clock.now_s()
         for queue in self.queues.values():
             queue.flush(ports, now_s)
-
-    def _opened(self) -> Ports:
-        if self._ports is None:
-            raise DriverError("the motors are not open")
-        return self._ports
 
 
 def _refreshes(joints: JointMap) -> dict[str, bytes]:

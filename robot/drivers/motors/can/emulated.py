@@ -10,6 +10,7 @@ import msgspec
 from robot.clock import Clock, WallClock
 from robot.drivers.motors.can.joint_map import Bus, JointMap
 from robot.drivers.motors.can.ports import PythonCan, socket_path
+from robot.drivers.motors.plant_behind import PlantBehind
 from robot.drivers.wiring import SimulatedPlant
 from robot.errors import ConfigError, Problem
 
@@ -72,19 +73,15 @@ class EmulatedBuses(PythonCan):
     def __init__(self, joints: JointMap, plant: SimulatedPlant, clock: Clock) -> None:
         """Know them; nothing is opened."""
         super().__init__(joints.buses, clock)
-        self._plant = plant
-        self._holds = False
+        self._behind = PlantBehind(plant)
 
     def __enter__(self) -> Self:
         """Open all. Raises DriverError if the plant or a bus is not there."""
-        self._plant.open()
-        self._holds = True
+        self._behind.open()
         super().__enter__()
         return self
 
     def close(self) -> None:
         """Close all."""
         super().close()
-        if self._holds:
-            self._holds = False
-            self._plant.close()
+        self._behind.close()

@@ -10,27 +10,26 @@ joints:
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Annotated, TypeAlias
 
 import msgspec
 
-from robot import config, yaml_nodes
 from robot import quantities as q
+from robot.drivers.motors import motor_map
 from robot.drivers.motors.can import load as bus_load
 from robot.drivers.motors.can.families import FAMILIES, Family
 from robot.drivers.motors.can.frames import BITRATE_HZ
 from robot.drivers.motors.can.mit11 import MOST_ID, Ranges
 from robot.drivers.motors.can.models import MODELS
-from robot.drivers.motors.mounting import Mounted, beyond, unlike
-from robot.errors import ConfigError
+from robot.drivers.motors.motor_map import Motor, MotorMap, Wrong
 from robot.model.description import RobotDescription
 
 FILE = "can.yaml"
 REPLIES_ABOVE = 16
 """A motor answers under its identifier plus this, where nobody changed it."""
-WATCHDOG_PERIODS = 3
 
 Identifier: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=MOST_ID)]
 Bitrate: TypeAlias = Annotated[int, msgspec.Meta(ge=10_000, le=1_000_000, extra={"unit": "bit/s"})]
@@ -68,7 +67,7 @@ class MotorRanges(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     torque_nm: q.Torque
 
 
-class JointMotor(Mounted, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class JointMotor(Motor, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """The motor of one joint, and how it sits there (`Mounted`).
 
     Attributes:
@@ -84,6 +83,11 @@ class JointMotor(Mounted, frozen=True, kw_only=True, forbid_unknown_fields=True)
     id: Identifier
     reply_id: Annotated[int, msgspec.Meta(ge=0, le=MOST_ID)] = 0
     ranges: MotorRanges | None = None
+
+    @property
+    def line(self) -> str:
+        """Its bus."""
+        return self.bus
 
     @property
     def answers_as(self) -> int:
@@ -112,40 +116,36 @@ class JointMotor(Mounted, frozen=True, kw_only=True, forbid_unknown_fields=True)
         return self.family.kd_max * self.gear * self.gear
 
 
-class JointMap(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """All motors of a robot, or of a part of one.
+class JointMap(MotorMap, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """All motors on CAN of a robot, or of a part of one (`MotorMap`).
 
     Attributes:
-        rate_hz: how often each is commanded.
-        watchdog_s: a motor lets go after so long without a command; written into it at the start.
+        watchdog_s: written into every motor at the start.
         buses: by name.
-        joints: by name, in the order of every array.
-        file: where it was read, for people.
     """
 
     rate_hz: Rate
     watchdog_s: Watchdog = 0.02
     buses: dict[str, Bus]
     joints: dict[str, JointMotor]
-    file: str = ""
 
     @property
-    def period_s(self) -> float:
-        """Between two commands."""
-        return 1.0 / self.rate_hz
+    def channels(self) -> Mapping[str, str]:
+        """Of its buses."""
+        return {name: bus.channel for name, bus in self.buses.items()}
 
     def on(self, bus: str) -> dict[str, JointMotor]:
         """The joints of a bus."""
         return {name: joint for name, joint in self.joints.items() if joint.bus == bus}
 
-    def load(self, bus: str) -> float:
+    def load(self, line: str) -> float:
         """The share of its time that a bus is busy."""
-        bitrate_hz = self.buses[bus].bitrate_hz
+        bitrate_hz = self.buses[line].bitrate_hz
         return sum(
             bus_load.load(
                 1, self.rate_hz, is_extended=joint.family.is_extended, bitrate_hz=bitrate_hz
             )
-            for joint in self.on(bus).values()
+            for joint in self.on(line).values()
         )
 
 
@@ -155,12 +155,8 @@ def load(path: Path | str) -> JointMap:
     Raises:
         ConfigError: with everything that is wrong in it, each with its line and a cure.
     """
-    node = yaml_nodes.read(path, begin_with="rate_hz: 500")
-    found = msgspec.structs.replace(config.convert(node, JointMap), file=str(path))
-    places = [*_names(found), *_identifiers(found), *_limits(found), *_loads(found)]
-    if places:
-        raise ConfigError([config.place(node, where).problem(*what) for where, *what in places])
-    return found
+    checks = (_names, _identifiers, _limits, _loads)
+    return motor_map.read(path, JointMap, begin_with="rate_hz: 500", checks=checks)
 
 
 def beside(robot: RobotDescription) -> JointMap:
@@ -178,29 +174,19 @@ def of_robot(found: JointMap, motors: Sequence[str]) -> JointMap:
     Raises:
         ConfigError: if it lacks a motor, or has one that the robot has not.
     """
-    if problems := unlike(list(found.joints), motors, found.file):
-        raise ConfigError(problems)
-    return msgspec.structs.replace(found, joints={name: found.joints[name] for name in motors})
-
-
-Wrong: TypeAlias = tuple[str, str, str]
-"""A place in the file, what is wrong there, the cure."""
+    return motor_map.in_order(found, motors)
 
 
 def _names(found: JointMap) -> Iterator[Wrong]:
-    if not found.joints:
-        yield "$.joints", "no joint stands here", "name one, see docs/hardware.md"
+    yield from motor_map.nameless(found)
     for name, joint in found.joints.items():
-        where = f"$.joints.{name}"
-        if joint.bus not in found.buses:
-            cure = config.nearest(joint.bus, list(found.buses)) or "add it to buses"
-            yield f"{where}.bus", f"there is no bus {joint.bus!r}", cure
-        if joint.model not in MODELS:
-            cure = config.nearest(joint.model, list(MODELS)) or f"one of {', '.join(MODELS)}"
-            yield f"{where}.model", f"unknown model {joint.model!r}", cure
-        elif joint.family.asking is None and joint.ranges is None:
+        yield from motor_map.misnamed(
+            name, joint, line="bus", plural="buses", lines=found.buses, models=MODELS
+        )
+        if joint.model in MODELS and joint.family.asking is None and joint.ranges is None:
             text = f"a {joint.model} cannot be asked what its frames stand for"
-            yield f"{where}.model", text, "say its ranges, as the maker's tool shows them"
+            cure = "say its ranges, as the maker's tool shows them"
+            yield f"$.joints.{name}.model", text, cure
 
 
 def _identifiers(found: JointMap) -> Iterator[Wrong]:
@@ -219,25 +205,22 @@ def _identifiers(found: JointMap) -> Iterator[Wrong]:
 
 def _limits(found: JointMap) -> Iterator[Wrong]:
     """A limit that the motor cannot meet, or that its frames cannot say."""
-    if found.watchdog_s < WATCHDOG_PERIODS * found.period_s:
-        text = f"the watchdog ends after {found.watchdog_s * 1000:g} ms, a late period is enough"
-        cure = f"at least {WATCHDOG_PERIODS} periods: {WATCHDOG_PERIODS * found.period_s:g}"
-        yield "$.watchdog_s", text, cure
+    yield from motor_map.hasty(found)
     for name, joint in found.joints.items():
-        if joint.model not in MODELS:
-            continue
-        where, most = f"$.joints.{name}", joint.expected
-        if joint.lower_rad >= joint.upper_rad:
-            yield f"{where}.lower_rad", "lower_rad is not below upper_rad", "exchange them"
-            continue
-        for key, angle in (("lower_rad", joint.lower_rad), ("upper_rad", joint.upper_rad)):
-            turned = joint.motor_rad(angle)
-            if abs(turned) > most.position_rad:
-                text = f"there the motor is at {turned:.2f} rad, and its frames say {most[0]:g}"
-                yield f"{where}.{key}", text, "narrow the limit, or correct gear and offset_rad"
-        yield from beyond(
-            where, joint, joint.model, speed_rad_s=most.velocity_rad_s, torque_nm=most.torque_nm
-        )
+        if joint.model in MODELS:
+            most = joint.expected
+            yield from motor_map.unmet(
+                f"$.joints.{name}",
+                joint,
+                most_rad=most.position_rad,
+                why=partial(_unsaid, most.position_rad),
+                speed_rad_s=most.velocity_rad_s,
+                torque_nm=most.torque_nm,
+            )
+
+
+def _unsaid(most_rad: float, turned_rad: float) -> str:
+    return f"there the motor is at {turned_rad:.2f} rad, and its frames say {most_rad:g}"
 
 
 def _loads(found: JointMap) -> Iterator[Wrong]:

@@ -13,13 +13,9 @@ from robot.drivers.motors.can.mit11 import DISABLED, Ranges
 from robot.drivers.motors.can.packed import BUS_OFF, ERROR, RECORD, SHORT_IDS, Bytes
 from robot.drivers.motors.can.replies import is_about_register, may_be_about_register
 from robot.drivers.motors.gearing import Gearing
+from robot.drivers.motors.jumps import Jumps
 from robot.se3 import Array
 
-JUMPS_BELIEVED = 3
-"""So many in a row that agree with each other are where the joint is."""
-JUMP_SLACK_RAD = 0.05
-FASTER = 1.5
-"""Than its range, at most, a motor may turn from one reply to the next."""
 NOBODY = -1
 
 
@@ -30,7 +26,6 @@ class Reception:
         q, qd, tau, temperature_c: as told, a lost reply bridged for one period.
         heard_s: when each told it.
         misses: periods in a row without a reply.
-        jumps: replies in a row that were too far from the one before.
         doubles: periods in a row with more than one reply.
         status: status codes.
         lost, ignored: replies that did not come; frames that were nobody's, or no feedback.
@@ -46,7 +41,6 @@ class Reception:
         self.heard_s: Array = np.full(count, -np.inf)
         self.misses: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self.status: npt.NDArray[np.intp] = np.full(count, DISABLED, np.intp)
-        self.jumps: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self.doubles: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self.lost = self.ignored = self.most_replies = 0
         self._replies: npt.NDArray[np.intp] = np.zeros(count, np.intp)
@@ -56,7 +50,12 @@ class Reception:
         self._by_key = np.full(SHORT_IDS * len(joints.buses) + 1, NOBODY, np.intp)
         for index, one in enumerate(self._motors):
             self._by_key[self._first_key[one.bus] + one.answers_as] = index
-        self._fastest: Array = np.array([FASTER * one.velocity_rad_s for one in ranges])
+        self._jumps = Jumps(np.array([one.velocity_rad_s for one in ranges]))
+
+    @property
+    def jumps(self) -> npt.NDArray[np.intp]:
+        """Replies in a row that were too far from the one before."""
+        return self._jumps.count
 
     def forget_where(self) -> None:
         """Believe whatever position comes next: a motor's zero was moved."""
@@ -107,15 +106,11 @@ class Reception:
     ) -> None:
         """Take what different motors said, but for positions that nobody can have come to."""
         motion, status, winding_c = self._coding.feedback(data, lengths, which)
-        allowed = JUMP_SLACK_RAD + self._fastest[which] * (now_s - self.heard_s[which])
-        jumped = np.abs(motion[0] - self.q[which]) > allowed
-        if jumped.any():
-            jumped &= self.jumps[which] < JUMPS_BELIEVED
-            self.jumps[which[jumped]] += 1
-            calm = ~jumped
+        since_s = now_s - self.heard_s[which]
+        calm = self._jumps.calm(which, motion[0] - self.q[which], since_s)
+        if calm is not None:
             which, motion, status = which[calm], motion[:, calm], status[calm]
             winding_c = winding_c[calm]
-        self.jumps[which] = 0
         self._motion[:, which] = motion
         self.temperature_c[which] = winding_c
         self.status[which] = status

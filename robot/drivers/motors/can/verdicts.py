@@ -4,57 +4,30 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
 
 from robot.drivers.motors.can.families import Asking
 from robot.drivers.motors.can.interview import Answers
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.drivers.motors.can.watching import LOST
+from robot.drivers.motors.findings import Finding, Said, findings
 from robot.drivers.motors.mounting import misplaced
 
 SAME_SHARE = 1e-4
 """Registers are single floats; a range that somebody changed differs by more."""
 
 
-class Finding(NamedTuple):
-    """Something about one joint's motor.
-
-    Attributes:
-        joint: its name.
-        code: for programs.
-        text: what is so, with what was expected and what was read.
-        cure: what a person does about it.
-        is_grave: whether nothing may be enabled.
-    """
-
-    joint: str
-    code: str
-    text: str
-    cure: str
-    is_grave: bool = True
-
-    def __str__(self) -> str:
-        """As a line for people."""
-        return f"{self.joint}: {self.text} ({self.cure})"
-
-
 def verdicts(joints: JointMap, answers: Mapping[str, Answers]) -> list[Finding]:
     """All that disagrees, in the map's order."""
-    found: list[Finding] = []
-    for name, joint in joints.joints.items():
-        asking = joint.family.asking
-        if asking is not None:
-            answer = answers[name]
-            found += (
-                Finding(name, code, text, cure, is_grave=grave)
-                for code, text, cure, grave in _of_one(joint, asking, answer)
-            )
-    return found
+    return findings(
+        {
+            name: _of_one(joint, asking, answers[name])
+            for name, joint in joints.joints.items()
+            if (asking := joint.family.asking) is not None
+        }
+    )
 
 
-def _of_one(
-    joint: JointMotor, asking: Asking, answer: Answers
-) -> Iterator[tuple[str, str, str, bool]]:
+def _of_one(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[Said]:
     where = f"motor {joint.id} on the bus {joint.bus!r}"
     if not answer.registers:
         cure = "check its power, its cable and its id; `humanoid motors scan` lists who is there"
@@ -71,9 +44,7 @@ def _of_one(
     yield from _state(joint, asking, answer)
 
 
-def _registers(
-    joint: JointMotor, asking: Asking, answer: Answers
-) -> Iterator[tuple[str, str, str, bool]]:
+def _registers(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[Said]:
     settings, values = asking.settings, answer.registers
     words = zip(("position", "velocity", "torque"), settings.ranges, joint.expected, strict=True)
     for what, number, wanted in words:
@@ -96,9 +67,7 @@ def _registers(
         yield "trips_early", text, f"set over_temperature_c under {hot_c:g} in the map", False
 
 
-def _state(
-    joint: JointMotor, asking: Asking, answer: Answers
-) -> Iterator[tuple[str, str, str, bool]]:
+def _state(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[Said]:
     state, ranges = answer.feedback, answer.ranges(asking)
     if state is None or ranges is None:
         yield "no_state", "it does not tell its state", "check the bus for lost frames", True

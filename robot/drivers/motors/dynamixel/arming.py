@@ -28,20 +28,20 @@ def arm(talk: Talk) -> None:
     """
     told = _read(talk, table.RETURN_DELAY.address, table.TORQUE_ENABLE.end)
     other = {name for name in talk.joints.joints if name not in told or _is_other(told[name])}
-    _write(talk, table.BUS_WATCHDOG, lambda _: 0)
+    write(talk, table.BUS_WATCHDOG, lambda _: 0)
     if not other and all(_is_on(answer) for answer in told.values()):
         return
-    _write(talk, table.TORQUE_ENABLE, lambda _: 0, only=other)
-    _write(talk, table.OPERATING_MODE, lambda _: table.CURRENT_MODE, only=other)
-    _write(talk, table.RETURN_DELAY, lambda _: 0, only=other)
-    _write(talk, table.GOAL_CURRENT, lambda _: 0)
-    _write(talk, table.TORQUE_ENABLE, lambda _: 1)
+    write(talk, table.TORQUE_ENABLE, lambda _: 0, only=other)
+    write(talk, table.OPERATING_MODE, lambda _: table.CURRENT_MODE, only=other)
+    write(talk, table.RETURN_DELAY, lambda _: 0, only=other)
+    write(talk, table.GOAL_CURRENT, lambda _: 0)
+    write(talk, table.TORQUE_ENABLE, lambda _: 1)
     steps = talk.joints.watchdog_steps
-    _write(talk, table.BUS_WATCHDOG, lambda _: steps)
+    write(talk, table.BUS_WATCHDOG, lambda _: steps)
     refused = [*_refused(talk, steps)]
-    _write(talk, table.BUS_WATCHDOG, lambda _: 0)
+    write(talk, table.BUS_WATCHDOG, lambda _: 0)
     if refused:
-        _write(talk, table.TORQUE_ENABLE, lambda _: 0)
+        write(talk, table.TORQUE_ENABLE, lambda _: 0)
         raise DriverError(f"all servos are switched off again: {', '.join(refused)}")
 
 
@@ -87,13 +87,29 @@ def leave_braking(talk: Talk) -> None:
 
     The mode is changed for that, and torque is off for as long as it takes, some milliseconds.
     """
-    _write(talk, table.BUS_WATCHDOG, lambda _: 0)
-    _write(talk, table.TORQUE_ENABLE, lambda _: 0)
-    _write(talk, table.OPERATING_MODE, lambda _: table.VELOCITY_MODE)
-    _write(talk, table.VELOCITY_I, lambda _: 0)
-    _write(talk, table.VELOCITY_P, braking_gain)
-    _write(talk, table.TORQUE_ENABLE, lambda _: 1)
-    _write(talk, table.GOAL_VELOCITY, lambda _: 0)
+    write(talk, table.BUS_WATCHDOG, lambda _: 0)
+    write(talk, table.TORQUE_ENABLE, lambda _: 0)
+    write(talk, table.OPERATING_MODE, lambda _: table.VELOCITY_MODE)
+    write(talk, table.VELOCITY_I, lambda _: 0)
+    write(talk, table.VELOCITY_P, braking_gain)
+    write(talk, table.TORQUE_ENABLE, lambda _: 1)
+    write(talk, table.GOAL_VELOCITY, lambda _: 0)
+
+
+def switch_off(talk: Talk) -> list[str]:
+    """Let every servo go, so that it gives no torque; the joints that were not seen to do so."""
+    names = talk.joints.joints
+    still = set(names)
+    write(talk, table.GOAL_CURRENT, lambda _: 0)
+    for _ in WAITS_S:
+        write(talk, table.TORQUE_ENABLE, lambda _: 0, only=still)
+        told = _read(talk, table.RETURN_DELAY.address, table.TORQUE_ENABLE.end)
+        still = {name for name in names if name not in told or _is_on(told[name])}
+        if not still:
+            break
+    # Who was not seen to keeps its watchdog: if it hears nothing any more, that lets it go.
+    write(talk, table.BUS_WATCHDOG, lambda _: 0, only=set(names) - still)
+    return [name for name in names if name in still]
 
 
 def braking_gain(joint: JointServo) -> int:
@@ -102,7 +118,7 @@ def braking_gain(joint: JointServo) -> int:
     return min(MOST_GAIN, max(1, round(128.0 * wanted_nm_s * RAD_S_A_STEP / joint.sold.nm_a_step)))
 
 
-def _write(
+def write(
     talk: Talk, item: Item, value: Callable[[JointServo], int], *, only: set[str] | None = None
 ) -> None:
     """Write an item into all servos, or only into these: of each port all at once."""

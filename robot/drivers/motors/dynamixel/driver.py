@@ -18,7 +18,7 @@ import numpy.typing as npt
 from robot.clock import Clock
 from robot.closing import Closing
 from robot.drivers.motor_bus import MIT_MODE, MotorCommand, MotorState
-from robot.drivers.motors.alarms import Alarms, Level
+from robot.drivers.motors.alarms import Alarms, News, untold
 from robot.drivers.motors.claim import Claim
 from robot.drivers.motors.dynamixel import arming, watching
 from robot.drivers.motors.dynamixel.asking import Asking
@@ -28,22 +28,19 @@ from robot.drivers.motors.dynamixel.joint_map import ServoMap
 from robot.drivers.motors.dynamixel.ports import Ports
 from robot.drivers.motors.dynamixel.reception import Reception
 from robot.drivers.motors.dynamixel.talking import Talk
+from robot.drivers.motors.findings import refuse_grave
 from robot.drivers.motors.gearing import Gearing
+from robot.drivers.motors.holding import Holding
+from robot.drivers.motors.life import Life, not_let_go
 from robot.drivers.motors.limiter import Limiter, Measured
+from robot.drivers.motors.periods import Periods
 from robot.drivers.motors.speed_check import SpeedCheck
+from robot.drivers.motors.watching import SILENT_PERIODS
 from robot.errors import DriverError
 from robot.se3 import Array
 
-LOOKS = 2
-"""A period, for what came in."""
 STALE_PERIODS = 3
 """From so many on nothing is fed back of a servo that does not answer."""
-SAME_S = 1e-6
-"""Sums of periods are not exact, and the time of a simulation goes on in whole periods."""
-
-
-def _nobody(_line: str) -> None:
-    """Hear nothing."""
 
 
 class DynamixelMotors(Closing):
@@ -52,7 +49,6 @@ class DynamixelMotors(Closing):
     Attributes:
         joints: the map, in the order of every array.
         alarms: what is wrong now.
-        late: periods that began late by more than one.
     """
 
     capabilities = MIT_MODE
@@ -63,8 +59,9 @@ class DynamixelMotors(Closing):
         clock: Clock,
         *,
         ports: Callable[[], Ports],
-        tell: Callable[[str], None] = _nobody,
+        tell: Callable[[str], None] = untold,
         waits: bool = True,
+        lets_go: bool = False,
     ) -> None:
         """Know the servos; nothing is opened.
 
@@ -75,30 +72,31 @@ class DynamixelMotors(Closing):
             tell: hears a line of every alarm, and at the end how well answers came.
             waits: whether `read` waits for the end of a period; False where another driver of the
                 same robot sets the pace.
+            lets_go: whether servos are switched off at the end, and so give no torque, in place of
+                braking by themselves: for one joint on a bench, not for a robot on its feet.
         """
         self.joints = joints
         self.alarms = Alarms()
-        self.late = 0
-        self._tell, self._told = tell, frozenset[str]()
-        self._waits = waits
-        self._clock, self._opens = clock, ports
+        self._tell, self._news = tell, News(self.alarms, tell)
+        self._waits, self._lets_go = waits, lets_go
+        self._clock, self._periods = clock, Periods(clock, joints.period_s)
         self._gearing, self.limiter = Gearing(joints), Limiter(joints)
         servos = list(joints.joints.values())
         self._nm_a_step: Array = np.array([one.nm_a_step for one in servos])
         self._most: Array = np.array([float(one.most_steps) for one in servos])
         self._claim = Claim(f"serial:{port.device}" for port in joints.ports.values())
+        self._life = Life(ports, self._claim)
         self._asking = Asking(joints)
         self.reception = Reception(joints)
-        self._ports: Ports | None = None
         self._talk: Talk | None = None
         self._is_armed = self._is_known = self._is_expired = self._is_watched = False
         self._asked: npt.NDArray[np.bool_] = np.zeros(len(servos), np.bool_)
         self._has_asked = False
         self._sent: MotorCommand | None = None
         self._obeyed: MotorCommand | None = None
-        self._held: MotorCommand | None = None
-        self._periods = self._lost_before = 0
-        self._tick_s = self._spoke_s = 0.0
+        self._holding = Holding()
+        self._commanded = self._lost_before = 0
+        self._spoke_s = 0.0
 
     def __enter__(self) -> Self:
         """Open the ports, and ask every servo who it is; nothing is enabled.
@@ -110,74 +108,82 @@ class DynamixelMotors(Closing):
             DriverError: if a port cannot be opened, or a servo is not what the map says: with
                 everything that disagrees.
         """
-        ports = self._opens()
-        ports.__enter__()
-        talk = Talk(ports, self._clock, self.joints)
-        self._is_known = False
-        try:
-            if self._claim.is_free():
-                self._interview(talk)
-        except DriverError:
-            ports.close()
-            raise
-        self._ports, self._talk = ports, talk
+        self._is_known, self._talk = False, None
+        if not self._life.open(self._first_asked):
+            self._talk = Talk(self._life.lines, self._clock, self.joints)
         self._watch = watching.Watch(self.joints, self.alarms)
-        self._tick_s = self._clock.now_s() + self.joints.period_s
-        for _ in range(watching.SILENT_PERIODS):
+        self._periods.begin()
+        for _ in range(SILENT_PERIODS):
             self._read(waits=True)
         return self
 
+    def _first_asked(self, ports: Ports) -> None:
+        self._talk = Talk(ports, self._clock, self.joints)
+        self._interview(self._talk)
+
     def _interview(self, talk: Talk) -> None:
-        answers = interview(talk)
-        if grave := [str(one) for one in verdicts(self.joints, answers) if one.is_grave]:
-            raise DriverError("the servos are not enabled:\n  " + "\n  ".join(grave))
+        refuse_grave(verdicts(self.joints, interview(talk)), "servos")
         self._is_known = True
 
     def close(self) -> None:
-        """Leave the servos braking for themselves, if they are commanded from here, and close."""
-        ports, self._ports = self._ports, None
-        if ports is None:
+        """Leave the servos braking for themselves, if they are commanded from here, and close.
+
+        Raises:
+            DriverError: if they were to be switched off, and one was not seen to be.
+        """
+        self._life.close(self._leave, self._left)
+
+    def _leave(self, _ports: Ports) -> None:
+        """Braking, or switched off. Raises DriverError if one was not seen to be off."""
+        if not self._is_armed or self._talk is None:
             return
-        try:
-            if self._is_armed and self._talk is not None:
-                # Who talks while servos answer spoils both.
-                self._clock.sleep_until(self._clock.now_s() + self.joints.period_s)
-                arming.leave_braking(self._talk)
-        finally:
-            self._is_armed = self._is_watched = False
-            self._claim.release()
-            ports.close()
-            if self._periods:
-                self._tell(self._summary())
+        # Who talks while servos answer spoils both.
+        self._clock.sleep_until(self._clock.now_s() + self.joints.period_s)
+        if not self._lets_go:
+            arming.leave_braking(self._talk)
+        elif on := arming.switch_off(self._talk):
+            raise not_let_go(on)
+
+    def _left(self) -> None:
+        self._is_armed = self._is_watched = False
+        if self._commanded:
+            self._tell(self._summary())
 
     def _summary(self) -> str:
         """How well answers came since the servos were enabled."""
         joints, lost = len(self.joints.joints), self.reception.lost - self._lost_before
         receivers = self._opened_talk().receivers.values()
         return (
-            f"Dynamixel: {joints} joints, {self._periods} periods at {self.joints.rate_hz} Hz, "
-            f"{lost} answers missed ({lost / (self._periods * joints):.3%}), "
+            f"Dynamixel: {joints} joints, {self._commanded} periods at {self.joints.rate_hz} Hz, "
+            f"{lost} answers missed ({lost / (self._commanded * joints):.3%}), "
             f"{sum(one.crc_errors + one.broken for one in receivers)} packets spoilt, "
             f"{self.late} periods late"
         )
 
     def claim(self) -> bool:
         """Become the one that commands these ports; False while another one does."""
-        ports = self._opened()
-        if self._claim.is_held:
-            return True
-        if taken := self._claim.take():
-            for port in self.joints.ports:
-                ports.read(port)  # what nobody read meanwhile is of the past
-            self._forget_asking()
-            self._tick_s = self._clock.now_s() + self.joints.period_s
-            self.reception.forget_where()
-        return taken
+        return self._life.claim(self._begin)
+
+    def _begin(self, ports: Ports) -> None:
+        for port in self.joints.ports:
+            ports.read(port)  # what nobody read meanwhile is of the past
+        self._forget_asking()
+        self._periods.begin()
+        self.reception.forget_where()
+
+    @property
+    def late(self) -> int:
+        """Periods that began late by more than one."""
+        return self._periods.late
 
     @property
     def speeds(self) -> SpeedCheck:
         """How reported speeds compare with reported positions."""
-        return self._watch.speeds
+        return self._watch.joints.speeds
+
+    def status_of(self, index: int) -> str:
+        """Whether a joint's servo has an error to tell, in one word."""
+        return "alert" if self.reception.alerts[index] else "answers"
 
     def reset(self) -> None:
         """Forget every alarm, also latched ones; the next command arms the servos anew.
@@ -187,7 +193,8 @@ class DynamixelMotors(Closing):
         self.alarms.reset()
         self._watch.forget()
         self._is_armed = self._is_expired = self._is_watched = False
-        self._held = self._sent = self._obeyed = None
+        self._sent = self._obeyed = None
+        self._holding.forget()
         self.limiter.forget()
 
     # --- read ----------------------------------------------------------------------------------
@@ -197,34 +204,24 @@ class DynamixelMotors(Closing):
         return self._read(waits=self._waits)
 
     def _read(self, *, waits: bool) -> MotorState:
-        self._opened()
+        self._life.check()
         ours = self._claim.is_held or self._claim.is_free()
         if ours and not self._has_asked:
             self._ask(None)
         if waits:
-            self._wait(hears=ours)
+            self._periods.wait(self._hear_some if ours else _hear_nothing)
         if ours:
             self._hear(is_over=True)
         asked, self._asked = self._asked, np.zeros_like(self._asked)
         self._has_asked = False
         return self._state(asked)
 
-    def _wait(self, *, hears: bool) -> None:
-        now_s, period_s = self._clock.now_s(), self.joints.period_s
-        if now_s > self._tick_s + period_s:
-            self.late += 1
-            self._tick_s = now_s
-        until_s = self._tick_s
-        while (now_s := self._clock.now_s()) < until_s - SAME_S:
-            self._clock.sleep_until(min(until_s, now_s + period_s / LOOKS))
-            if hears:
-                self._hear(is_over=False)
-        ended_s = self._clock.now_s()
-        self._tick_s = (ended_s if ended_s - until_s < SAME_S else until_s) + period_s
+    def _hear_some(self) -> None:
+        self._hear(is_over=False)
 
     def _hear(self, *, is_over: bool) -> None:
         """Take what came in; at the end of a period what has begun is given up."""
-        ports, receivers = self._opened(), self._opened_talk().receivers
+        ports, receivers = self._life.lines, self._opened_talk().receivers
         now_s = self._clock.now_s()
         for port, receiver in receivers.items():
             heard = receiver.take(ports.read(port))
@@ -240,9 +237,9 @@ class DynamixelMotors(Closing):
         heard.end_period(asked)
         q, qd, tau = heard.at_joints(self._gearing)
         self._watch.look(now_s, heard, q, qd, receivers=self._opened_talk().receivers)
-        self._periods += self._is_armed
-        if self._is_armed and (self.alarms.on or self._told):
-            self._tell_alarms(now_s)
+        self._commanded += self._is_armed
+        if self._is_armed:
+            self._news.say(now_s)
         return MotorState(
             stamp_s=now_s,
             q=q,
@@ -255,13 +252,6 @@ class DynamixelMotors(Closing):
             alarms=self.alarms.messages() if self._is_armed else (),
         )
 
-    def _tell_alarms(self, now_s: float) -> None:
-        """Say what is new."""
-        on = {f"{alarm.code} {alarm.who}": alarm for alarm in self.alarms.on}
-        for key in on.keys() - self._told:
-            self._tell(f"{now_s:.3f} s, {on[key].level.name}: {on[key]}")
-        self._told = frozenset(on)
-
     # --- write ---------------------------------------------------------------------------------
 
     def write(self, command: MotorCommand) -> MotorCommand:
@@ -273,14 +263,15 @@ class DynamixelMotors(Closing):
             DriverError: if a value is not finite or a shape is wrong (nothing is sent), another
                 driver commands, or a servo cannot be enabled.
         """
-        self._opened()
+        self._life.check()
         self.limiter.check(command)
         if not self.claim():
             raise DriverError("another controller commands the motors")
         self.arm()
         q, qd, _ = self.reception.at_joints(self._gearing)
         measured = Measured(q, qd, self.reception.temperature_c)
-        limited = self.limiter.apply(self._decided(command, q), measured)
+        wanted = self._holding.decided(command, self.alarms.level, obeyed=self._obeyed, q=q)
+        limited = self.limiter.apply(wanted, measured)
         self._obeyed = limited
         tau = limited.kp * (limited.q_des - q) + limited.kd * (limited.qd_des - qd)
         tau = np.where(self.reception.misses >= STALE_PERIODS, 0.0, tau) + limited.tau_ff
@@ -307,13 +298,13 @@ class DynamixelMotors(Closing):
         self._is_armed, self._is_expired, self._is_watched = True, False, False
         self._forget_asking()
         self._spoke_s = self._clock.now_s()
-        self._tick_s = self._spoke_s + self.joints.period_s
+        self._periods.begin()
         while not np.isfinite(self.reception.heard_s).all():  # where they are, before any torque
             before = self.reception.heard_s.copy()
             self._read(waits=True)
             if (before == self.reception.heard_s).all():
                 break
-        self._lost_before, self._periods = self.reception.lost, 0
+        self._lost_before, self._commanded = self.reception.lost, 0
 
     def _forget_asking(self) -> None:
         """Nobody answers what was asked before."""
@@ -324,7 +315,7 @@ class DynamixelMotors(Closing):
 
     def _ask(self, steps: Array | None) -> None:
         """Send currents, if there are any, and ask for the state, in one write a port."""
-        ports, now_s = self._opened(), self._clock.now_s()
+        ports, now_s = self._life.lines, self._clock.now_s()
         since_s = now_s - self._spoke_s
         if self._is_watched and since_s > self.joints.watchdog_s - 0.5 * WATCHDOG_STEP_S:
             self._is_expired = True
@@ -338,26 +329,11 @@ class DynamixelMotors(Closing):
             ports.write(port, begin.get(port, b"") + packets)
         self._asked, self._has_asked = self._asking.asked.copy(), True
 
-    def _decided(self, command: MotorCommand, q: Array) -> MotorCommand:
-        """The command, or what an alarm wants in its place."""
-        if self.alarms.level != Level.HOLD:
-            self._held = None
-            return command
-        if self._obeyed is None:
-            return MotorCommand.damping(len(q), command.stamp_s)
-        if self._held is None:
-            last = self._obeyed
-            q_des = np.where(last.kp > 0.0, last.q_des, q)
-            self._held = MotorCommand(0.0, q_des, np.zeros_like(q), last.tau_ff, last.kp, last.kd)
-        held = self._held
-        return MotorCommand(command.stamp_s, held.q_des, held.qd_des, held.tau_ff, held.kp, held.kd)
-
-    def _opened(self) -> Ports:
-        if self._ports is None:
-            raise DriverError("the motors are not open")
-        return self._ports
-
     def _opened_talk(self) -> Talk:
         if self._talk is None:
             raise DriverError("the motors are not open")
         return self._talk
+
+
+def _hear_nothing() -> None:
+    """Of ports that another program reads."""

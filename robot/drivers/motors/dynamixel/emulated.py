@@ -9,6 +9,7 @@ import msgspec
 
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
 from robot.drivers.motors.dynamixel.ports import SerialPorts
+from robot.drivers.motors.plant_behind import PlantBehind
 from robot.drivers.wiring import SimulatedPlant
 
 
@@ -32,19 +33,15 @@ class EmulatedPorts(SerialPorts):
     def __init__(self, joints: ServoMap, plant: SimulatedPlant) -> None:
         """Know them; nothing is opened."""
         super().__init__(joints.ports)
-        self._plant = plant
-        self._holds = False
+        self._behind = PlantBehind(plant)
 
     def __enter__(self) -> Self:
         """Open all. Raises DriverError if the plant or a port is not there."""
-        self._plant.open()
-        self._holds = True
+        self._behind.open()
         super().__enter__()
         return self
 
     def close(self) -> None:
         """Close all."""
         super().close()
-        if self._holds:
-            self._holds = False
-            self._plant.close()
+        self._behind.close()

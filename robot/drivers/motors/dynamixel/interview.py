@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
 
 from robot.drivers.motors.dynamixel import control_table as table
 from robot.drivers.motors.dynamixel import instructions
@@ -13,6 +12,7 @@ from robot.drivers.motors.dynamixel.joint_map import JointServo, ServoMap
 from robot.drivers.motors.dynamixel.models import NAMES, RAD_A_PULSE, RAD_S_A_STEP
 from robot.drivers.motors.dynamixel.packets import Status
 from robot.drivers.motors.dynamixel.talking import WAITS_S, Talk
+from robot.drivers.motors.findings import Finding, Said, findings
 from robot.drivers.motors.mounting import misplaced
 
 MIDDLE = 2048
@@ -112,38 +112,12 @@ def one_each(
     }
 
 
-class Finding(NamedTuple):
-    """Something about one joint's servo.
-
-    Attributes:
-        joint: its name.
-        code: for programs.
-        text: what is so, with what was expected and what was read.
-        cure: what a person does about it.
-        is_grave: whether nothing may be enabled.
-    """
-
-    joint: str
-    code: str
-    text: str
-    cure: str
-    is_grave: bool = True
-
-    def __str__(self) -> str:
-        """As a line for people."""
-        return f"{self.joint}: {self.text} ({self.cure})"
-
-
 def verdicts(joints: ServoMap, answers: Mapping[str, Answers]) -> list[Finding]:
     """All that disagrees, in the map's order."""
-    return [
-        Finding(name, code, text, cure, is_grave=grave)
-        for name, joint in joints.joints.items()
-        for code, text, cure, grave in _of_one(joint, answers[name])
-    ]
+    return findings({name: _of_one(joint, answers[name]) for name, joint in joints.joints.items()})
 
 
-def _of_one(joint: JointServo, answer: Answers) -> Iterator[tuple[str, str, str, bool]]:
+def _of_one(joint: JointServo, answer: Answers) -> Iterator[Said]:
     where = f"servo {joint.id} on the port {joint.port!r}"
     if answer.settings is None and answer.spoilt:
         text = f"what {where} answers is spoilt, {answer.spoilt} times"
@@ -168,7 +142,7 @@ def _of_one(joint: JointServo, answer: Answers) -> Iterator[tuple[str, str, str,
         yield wrong.code, wrong.text, wrong.cure, True
 
 
-def _settings(joint: JointServo, answer: Answers) -> Iterator[tuple[str, str, str, bool]]:
+def _settings(joint: JointServo, answer: Answers) -> Iterator[Said]:
     errors = table.hardware_errors(answer.value(table.HARDWARE_ERROR))
     for error in errors:
         text = f"it reports {error.replace('_', ' ')}"

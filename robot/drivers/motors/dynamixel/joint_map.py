@@ -12,14 +12,14 @@ others: can            # who moves the joints that are not here
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
-from robot import config, yaml_nodes
 from robot import quantities as q
+from robot.drivers.motors import motor_map
 from robot.drivers.motors.dynamixel import load as port_load
 from robot.drivers.motors.dynamixel.control_table import (
     BAUD_RATES_HZ,
@@ -28,12 +28,10 @@ from robot.drivers.motors.dynamixel.control_table import (
 )
 from robot.drivers.motors.dynamixel.models import MODELS, Model
 from robot.drivers.motors.dynamixel.packets import MOST_ID
-from robot.drivers.motors.mounting import Mounted, beyond, unlike
-from robot.errors import ConfigError
+from robot.drivers.motors.motor_map import Motor, MotorMap, Wrong
 from robot.model.description import RobotDescription
 
 FILE = "dynamixel.yaml"
-WATCHDOG_PERIODS = 3
 KP_MOST, KD_MOST = 500.0, 5.0
 """Of a servo: as stiff as a motor whose own firmware closes the loop, and no stiffer."""
 
@@ -59,7 +57,7 @@ class Port(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     latency_s: Latency = 0.001
 
 
-class JointServo(Mounted, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class JointServo(Motor, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """The servo of one joint, and how it sits there (`Mounted`); it says 0 at 2048.
 
     Attributes:
@@ -71,6 +69,11 @@ class JointServo(Mounted, frozen=True, kw_only=True, forbid_unknown_fields=True)
     port: str
     model: str
     id: Identifier
+
+    @property
+    def line(self) -> str:
+        """Its port."""
+        return self.port
 
     @property
     def sold(self) -> Model:
@@ -98,16 +101,13 @@ class JointServo(Mounted, frozen=True, kw_only=True, forbid_unknown_fields=True)
         return KD_MOST * self.gear * self.gear
 
 
-class ServoMap(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """All servos of a robot, or of a part of one.
+class ServoMap(MotorMap, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """All servos of a robot, or of a part of one (`MotorMap`).
 
     Attributes:
-        rate_hz: how often each is commanded.
         watchdog_s: a servo stops after so long without a word; in steps of 20 ms.
         ports: by name.
-        joints: by name, in the order of every array.
         others: the driver of the robot's joints that are not here; "" where all are.
-        file: where it was read, for people.
     """
 
     rate_hz: Rate
@@ -115,12 +115,11 @@ class ServoMap(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     ports: dict[str, Port]
     joints: dict[str, JointServo]
     others: Literal["", "can"] = ""
-    file: str = ""
 
     @property
-    def period_s(self) -> float:
-        """Between two commands."""
-        return 1.0 / self.rate_hz
+    def channels(self) -> Mapping[str, str]:
+        """Devices of its ports."""
+        return {name: port.device for name, port in self.ports.items()}
 
     @property
     def watchdog_steps(self) -> int:
@@ -131,18 +130,9 @@ class ServoMap(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         """The joints of a port."""
         return {name: joint for name, joint in self.joints.items() if joint.port == port}
 
-    def load(self, port: str) -> float:
+    def load(self, line: str) -> float:
         """The share of its time that a port is busy."""
-        return port_load.load(len(self.on(port)), self.rate_hz, self.ports[port].baud_hz)
-
-
-def is_one(path: Path | str) -> bool:
-    """Whether a file is a map of servos, and not one of motors on CAN: it names ports.
-
-    Raises:
-        ConfigError: it cannot be read as YAML.
-    """
-    return yaml_nodes.read(path, begin_with="rate_hz: 200").get("ports") is not None
+        return port_load.load(len(self.on(line)), self.rate_hz, self.ports[line].baud_hz)
 
 
 def load(path: Path | str) -> ServoMap:
@@ -151,12 +141,8 @@ def load(path: Path | str) -> ServoMap:
     Raises:
         ConfigError: with everything that is wrong in it, each with its line and a cure.
     """
-    node = yaml_nodes.read(path, begin_with="rate_hz: 200")
-    found = msgspec.structs.replace(config.convert(node, ServoMap), file=str(path))
-    places = [*_names(found), *_identifiers(found), *_limits(found), *_loads(found)]
-    if places:
-        raise ConfigError([config.place(node, where).problem(*what) for where, *what in places])
-    return found
+    checks = (_names, _identifiers, _limits, _loads)
+    return motor_map.read(path, ServoMap, begin_with="rate_hz: 200", checks=checks)
 
 
 def beside(robot: RobotDescription) -> ServoMap:
@@ -176,31 +162,20 @@ def of_robot(found: ServoMap, motors: Sequence[str]) -> ServoMap:
             moves.
     """
     wanted = [name for name in motors if name in found.joints] if found.others else motors
-    if problems := unlike(list(found.joints), wanted, found.file):
-        raise ConfigError(problems)
-    return msgspec.structs.replace(found, joints={name: found.joints[name] for name in wanted})
-
-
-Wrong: TypeAlias = tuple[str, str, str]
-"""A place in the file, what is wrong there, the cure."""
+    return motor_map.in_order(found, wanted)
 
 
 def _names(found: ServoMap) -> Iterator[Wrong]:
-    if not found.joints:
-        yield "$.joints", "no joint stands here", "name one, see docs/hardware.md"
+    yield from motor_map.nameless(found)
     for port, settings in found.ports.items():
         if settings.baud_hz not in BAUD_RATES_HZ:
             rates = ", ".join(map(str, BAUD_RATES_HZ))
             text = f"a servo has no bit rate of {settings.baud_hz}"
             yield f"$.ports.{port}.baud_hz", text, f"one of {rates}"
     for name, joint in found.joints.items():
-        where = f"$.joints.{name}"
-        if joint.port not in found.ports:
-            cure = config.nearest(joint.port, list(found.ports)) or "add it to ports"
-            yield f"{where}.port", f"there is no port {joint.port!r}", cure
-        if joint.model not in MODELS:
-            cure = config.nearest(joint.model, list(MODELS)) or f"one of {', '.join(MODELS)}"
-            yield f"{where}.model", f"unknown model {joint.model!r}", cure
+        yield from motor_map.misnamed(
+            name, joint, line="port", plural="ports", lines=found.ports, models=MODELS
+        )
 
 
 def _identifiers(found: ServoMap) -> Iterator[Wrong]:
@@ -216,32 +191,27 @@ def _identifiers(found: ServoMap) -> Iterator[Wrong]:
 
 def _limits(found: ServoMap) -> Iterator[Wrong]:
     """A limit that the servo cannot meet, or that it could not tell after it was without power."""
-    if found.watchdog_s < WATCHDOG_PERIODS * found.period_s:
-        text = f"the watchdog ends after {found.watchdog_s * 1000:g} ms, a late period is enough"
-        cure = f"at least {WATCHDOG_PERIODS} periods: {WATCHDOG_PERIODS * found.period_s:g}"
-        yield "$.watchdog_s", text, cure
+    yield from motor_map.hasty(found)
     steps = found.watchdog_s / WATCHDOG_STEP_S
     if abs(steps - round(steps)) > 1e-6 or steps > WATCHDOG_MOST:
         yield "$.watchdog_s", "servos count it in steps of 20 ms", "0.04, 0.06, 0.08 ..."
     for name, joint in found.joints.items():
-        if joint.model not in MODELS:
-            continue
-        where = f"$.joints.{name}"
-        if joint.lower_rad >= joint.upper_rad:
-            yield f"{where}.lower_rad", "lower_rad is not below upper_rad", "exchange them"
-            continue
-        for key, angle in (("lower_rad", joint.lower_rad), ("upper_rad", joint.upper_rad)):
-            turned = joint.motor_rad(angle)
-            if abs(turned) > math.pi:
-                text = (
-                    f"there the servo is at {turned:.2f} rad, and after it was without power it "
-                    "knows where it is within one turn only"
-                )
-                yield f"{where}.{key}", text, "narrow the limit, or correct gear and offset_rad"
-        sold = joint.sold
-        yield from beyond(
-            where, joint, joint.model, speed_rad_s=sold.velocity_rad_s, torque_nm=sold.torque_nm
-        )
+        if joint.model in MODELS:
+            yield from motor_map.unmet(
+                f"$.joints.{name}",
+                joint,
+                most_rad=math.pi,
+                why=_lost,
+                speed_rad_s=joint.sold.velocity_rad_s,
+                torque_nm=joint.sold.torque_nm,
+            )
+
+
+def _lost(turned_rad: float) -> str:
+    return (
+        f"there the servo is at {turned_rad:.2f} rad, and after it was without power it knows "
+        "where it is within one turn only"
+    )
 
 
 def _loads(found: ServoMap) -> Iterator[Wrong]:

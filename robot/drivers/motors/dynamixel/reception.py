@@ -14,13 +14,8 @@ from robot.drivers.motors.dynamixel.joint_map import ServoMap
 from robot.drivers.motors.dynamixel.models import RAD_A_PULSE, RAD_S_A_STEP
 from robot.drivers.motors.dynamixel.packets import Status
 from robot.drivers.motors.gearing import Gearing
+from robot.drivers.motors.jumps import Jumps
 from robot.se3 import Array
-
-JUMPS_BELIEVED = 3
-"""So many in a row that agree with each other are where the joint is."""
-JUMP_SLACK_RAD = 0.05
-FASTER = 1.5
-"""Than without load, at most, a servo may turn from one answer to the next."""
 
 _SHORT = np.dtype([("current", "<i2"), ("velocity", "<i4"), ("position", "<i4")])
 _LONG = np.dtype([*_SHORT.descr, ("trajectories", "V8"), ("decivolts", "<u2"), ("celsius", "u1")])
@@ -33,7 +28,6 @@ class Reception:
         q, qd, tau, temperature_c, volts: as told, a lost answer bridged for one period.
         heard_s: when each told it.
         misses: periods in a row in which it was asked and did not answer.
-        jumps: answers in a row that were too far from the one before.
         alerts: whether it has a hardware error to tell.
         errors: bits of its hardware error, as far as it was asked.
         lost, ignored: answers that did not come; those that were nobody's, or nothing of ours.
@@ -48,18 +42,22 @@ class Reception:
         self.volts: Array = np.full(count, np.nan)
         self.heard_s: Array = np.full(count, -np.inf)
         self.misses: npt.NDArray[np.intp] = np.zeros(count, np.intp)
-        self.jumps: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self.alerts: npt.NDArray[np.bool_] = np.zeros(count, np.bool_)
         self.errors: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self.lost = self.ignored = 0
         self._came: npt.NDArray[np.bool_] = np.zeros(count, np.bool_)
         self._period_s = joints.period_s
         self._step_nm: Array = np.array([one.sold.nm_a_step for one in servos])
-        self._fastest: Array = np.array([FASTER * one.sold.velocity_rad_s for one in servos])
+        self._jumps = Jumps(np.array([one.sold.velocity_rad_s for one in servos]))
         self._index = {
             port: {one.id: index for index, one in enumerate(servos) if one.port == port}
             for port in joints.ports
         }
+
+    @property
+    def jumps(self) -> npt.NDArray[np.intp]:
+        """Replies in a row that were too far from the one before."""
+        return self._jumps.count
 
     def forget_where(self) -> None:
         """Believe whatever position comes next."""
@@ -94,14 +92,9 @@ class Reception:
         told = np.frombuffer(b"".join(data for _, data in short), _SHORT)
         self._came[which] = True
         q = (told["position"] - MIDDLE) * RAD_A_PULSE
-        allowed = JUMP_SLACK_RAD + self._fastest[which] * (now_s - self.heard_s[which])
-        jumped = np.abs(q - self.q[which]) > allowed
-        if jumped.any():
-            jumped &= self.jumps[which] < JUMPS_BELIEVED
-            self.jumps[which[jumped]] += 1
-            calm = ~jumped
+        calm = self._jumps.calm(which, q - self.q[which], now_s - self.heard_s[which])
+        if calm is not None:
             which, told, q = which[calm], told[calm], q[calm]
-        self.jumps[which] = 0
         self.q[which], self.qd[which] = q, told["velocity"] * RAD_S_A_STEP
         self.tau[which] = told["current"] * self._step_nm[which]
         self.heard_s[which] = now_s

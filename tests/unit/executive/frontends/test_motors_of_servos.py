@@ -55,7 +55,19 @@ def test_a_flaw_that_there_is_not_is_refused(file):
 
 
 @pytest.mark.live
-def test_what_is_for_motors_on_can_says_so(file):
-    result = motors("zero", "wrist", "--map", file, "--emulated")
-    assert isinstance(result.exception, ConfigError)
-    assert "scan, read, check and watch know servos" in str(result.exception)
+def test_jog_zero_and_log_say_what_they_did_to_emulated_servos(file, tmp_path):
+    moved = motors(
+        "jog", "elbow", "--by", 0.2, "--torque", 0.4, "--map", file, "--emulated", "--json"
+    )
+    assert moved.exit_code == 0, moved.output
+    jog = json.loads(moved.stdout)["jog"]
+    assert jog["to_rad"] - jog["from_rad"] == pytest.approx(0.2, abs=0.1)
+    assert jog["most_nm"] <= jog["limit_nm"] == pytest.approx(2.4)
+    found = motors("zero", "wrist", "--at", 0.1, "--in-motor", "--map", file, "--emulated")
+    assert found.exit_code == 0, found.output
+    assert "Its motor calls this position zero from now on." in found.stdout
+    assert "Write offset_rad: 0.1000 at wrist" in found.stdout
+    path = tmp_path / "log.csv"
+    logged = motors("log", path, "--for", 0.3, "--map", file, "--emulated")
+    assert logged.exit_code == 0, logged.output
+    assert len(path.read_text().splitlines()) > 25

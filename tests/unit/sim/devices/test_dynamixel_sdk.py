@@ -1,8 +1,6 @@
 """`dynamixel-sdk`, which nobody here wrote, drives emulated servos through a serial port."""
 
-import threading
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -12,13 +10,13 @@ from sim.devices.dynamixel import Kind, Servo
 from sim.devices.serial_line import Line
 from sim.devices.serial_server import SerialServer
 from sim.devices.shaft import FreeShaft
+from tests.fakes.served import Playing, until
 
 sdk = pytest.importorskip("dynamixel_sdk")
-PATIENCE_S = 60.0
 KIND = Kind(1020, 4.1, 2.3, 4.8, 2.69e-3, 1193)
 
 
-class Served:
+class Served(Playing):
     """Two servos behind a terminal, played by a thread."""
 
     def __init__(self, folder: Path) -> None:
@@ -30,19 +28,7 @@ class Served:
         ]
         self.line.servos += self.servos
         self.path = folder / "dxl0"
-        self.server = SerialServer([(self.path, self.line)], clock)
-        self._ends = threading.Event()
-        self._thread = threading.Thread(target=self._serve)
-        self._thread.start()
-
-    def _serve(self) -> None:
-        while not self._ends.is_set():
-            self.server.step(WallClock().now_s() + 0.01)
-
-    def close(self) -> None:
-        self._ends.set()
-        self._thread.join()
-        self.server.close()
+        super().__init__(SerialServer([(self.path, self.line)], clock))
 
 
 @pytest.fixture
@@ -58,14 +44,6 @@ def port(served: Served):
     assert opened.setBaudRate(1_000_000)
     yield opened
     opened.closePort()
-
-
-def until(holds: Callable[[], bool]) -> None:
-    """Try again: it gives up after 5 ms and a machine may be busy for longer."""
-    ends_s = time.monotonic() + PATIENCE_S
-    while not holds():
-        assert time.monotonic() < ends_s
-        time.sleep(0.002)
 
 
 def test_it_finds_them_switches_them_on_and_moves_them(served: Served, port):

@@ -214,7 +214,7 @@ def test_a_second_program_asks_for_nothing_while_the_first_commands(robot, rig):
             """The first goes on with its periods while the second waits."""
             while rig.plant.time_s < time_s - 1e-6:
                 for bus, frames in first._coding.commands(last)[0].items():
-                    first._ports.send_packed(bus, frames)
+                    first._life.lines.send_packed(bus, frames)
                 play(rig.plant.time_s + 0.002)
 
         last = np.zeros((5, 33))

@@ -1,8 +1,6 @@
 """`damiao-motor`, which nobody here wrote, drives an emulated motor through python-can."""
 
-import threading
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -12,13 +10,13 @@ from sim.devices.damiao import Damiao
 from sim.devices.server import CanServer
 from sim.devices.shaft import FreeShaft
 from sim.devices.wire import Wire
+from tests.fakes.served import PATIENCE_S, Playing, until
 
 can = pytest.importorskip("can")
 damiao_motor = pytest.importorskip("damiao_motor")
-PATIENCE_S = 30.0
 
 
-class Served:
+class Served(Playing):
     """Two motors on a wire behind a socket, played by a thread."""
 
     def __init__(self, folder: Path) -> None:
@@ -29,19 +27,7 @@ class Served:
             for i in (1, 2)
         ]
         self.path = folder / "can0"
-        self.server = CanServer([(self.path, self.wire)], self.motors, clock)
-        self._ends = threading.Event()
-        self._thread = threading.Thread(target=self._serve)
-        self._thread.start()
-
-    def _serve(self) -> None:
-        while not self._ends.is_set():
-            self.server.step(WallClock().now_s() + 0.01)
-
-    def close(self) -> None:
-        self._ends.set()
-        self._thread.join()
-        self.server.close()
+        super().__init__(CanServer([(self.path, self.wire)], self.motors, clock))
 
 
 @pytest.fixture
@@ -49,14 +35,6 @@ def served(tmp_path: Path) -> Iterator[Served]:
     made = Served(tmp_path)
     yield made
     made.close()
-
-
-def until(holds: Callable[[], bool]) -> None:
-    """Wait until something holds; that it never does is the only way to fail."""
-    ends_s = time.monotonic() + PATIENCE_S
-    while not holds():
-        assert time.monotonic() < ends_s
-        time.sleep(0.005)
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")

@@ -5,7 +5,8 @@ import pty
 
 import pytest
 
-from robot.drivers.motors.dynamixel import joint_map, load
+from robot.bringup import motor_families
+from robot.drivers.motors.dynamixel import load
 from robot.drivers.motors.dynamixel import ports as serial_ports
 from robot.drivers.motors.dynamixel.joint_map import Port
 from robot.errors import ConfigError, DriverError
@@ -17,7 +18,7 @@ def test_a_map_is_read_with_what_it_leaves_out(tmp_path):
     assert list(found.joints) == ["shoulder", "elbow", "wrist"]
     assert (found.watchdog_s, found.watchdog_steps, found.others) == (0.04, 2, "")
     assert found.ports["arm"].latency_s == 0.001
-    assert joint_map.is_one(tmp_path / "dynamixel.yaml")
+    assert motor_families.of_file(tmp_path / "dynamixel.yaml").map is type(found)
     for name, one in found.joints.items():
         assert one.most_steps * abs(one.nm_a_step) <= one.torque_limit_nm, name
 

@@ -1,0 +1,193 @@
+"""What `humanoid motors` does with motors on CAN, and with no others (`motor_families`)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import zip_longest
+
+import msgspec
+
+from robot.bringup.motor_family import MapDriver
+from robot.bringup.motor_reports import Reading, Seen
+from robot.clock import Clock
+from robot.drivers.motors.can.interview import Answers, exchange, interview, read_registers
+from robot.drivers.motors.can.joint_map import SOCKETCAN, Bus, JointMap, JointMotor
+from robot.drivers.motors.can.mit11 import (
+    MODE,
+    OWN_ID,
+    SUPPLY,
+    VERSION,
+    read_register,
+    register_reply,
+)
+from robot.drivers.motors.can.ports import Heard, Ports, PythonCan, check_buses
+from robot.drivers.motors.can.verdicts import verdicts
+from robot.drivers.motors.findings import Finding
+from robot.drivers.motors.motor_map import Motor
+
+AT_ONCE = 32
+"""Identifiers asked together: their replies take a bus 4 ms."""
+DISABLED = "disabled"
+
+
+def nameless(channels: Sequence[str], interface: str = SOCKETCAN) -> JointMap:
+    """A map of CAN interfaces by their own names, in which no joint stands."""
+    buses = {channel: Bus(channel=channel, interface=interface) for channel in channels}
+    return JointMap(rate_hz=500, buses=buses, joints={})
+
+
+def elsewhere(joints: JointMap, channels: Mapping[str, str], by: str) -> JointMap:
+    """A map with its buses at other channels."""
+    buses = {name: Bus(channel=channels[name], interface=by) for name in joints.buses}
+    return msgspec.structs.replace(joints, buses=buses)
+
+
+def check_user(joints: JointMap) -> None:
+    """Raises DriverError where the user does not let robots open one of its buses."""
+    check_buses(joints.buses)
+
+
+def ports(joints: JointMap, clock: Clock) -> Ports:
+    """Its buses, by python-can."""
+    return PythonCan(joints.buses, clock)
+
+
+def findings(ports: Ports, clock: Clock, joints: JointMap) -> list[Finding]:
+    """What they say of themselves where the map says otherwise."""
+    return verdicts(joints, interview(ports, clock, joints))
+
+
+# --- scan --------------------------------------------------------------------------------------
+
+
+def scan(ports: Ports, clock: Clock, joints: JointMap, up_to: int) -> list[Seen]:
+    """Ask every identifier of every bus who it is; of Damiao's motors."""
+    buses = joints.buses
+    named = {(one.bus, one.id): name for name, one in joints.joints.items()}
+    heard: dict[tuple[str, int], list[int]] = {}
+    for first in range(1, up_to + 1, AT_ONCE):
+        numbers = range(first, min(first + AT_ONCE, up_to + 1))
+        _who(ports, clock, [(bus, number) for bus in buses for number in numbers], heard)
+    found = sorted(heard)
+    for one_a_bus in _turns(found):  # two that say the same thing at once are heard as one
+        again: dict[tuple[str, int], list[int]] = {}
+        _who(ports, clock, one_a_bus, again)
+        heard.update(again)
+    values: dict[tuple[str, int, int], float] = {}
+    for register in (21, 22, 23, MODE, VERSION):
+        _values(ports, clock, found, register, values)
+    return [
+        Seen(
+            bus=bus,
+            id=number,
+            reply_id=heard[bus, number][0],
+            replies=len(heard[bus, number]),
+            joint=named.get((bus, number), ""),
+            mode=_whole(values.get((bus, number, MODE))),
+            version=_whole(values.get((bus, number, VERSION))),
+            ranges=_ranges([values.get((bus, number, register)) for register in (21, 22, 23)]),
+        )
+        for bus, number in found
+    ]
+
+
+def _who(
+    ports: Ports,
+    clock: Clock,
+    asked: list[tuple[str, int]],
+    heard: dict[tuple[str, int], list[int]],
+) -> None:
+    def take(one: Heard) -> None:
+        reply = None if one.frame is None else register_reply(one.frame.data)
+        if reply is not None and one.frame is not None and reply.register == OWN_ID:
+            heard.setdefault((one.bus, reply.motor_id), []).append(one.frame.id)
+
+    exchange(ports, clock, [(bus, read_register(number, OWN_ID)) for bus, number in asked], take)
+
+
+def _turns(found: list[tuple[str, int]]) -> list[list[tuple[str, int]]]:
+    """One identifier of each bus at a time."""
+    by_bus: dict[str, list[tuple[str, int]]] = {}
+    for bus, number in found:
+        by_bus.setdefault(bus, []).append((bus, number))
+    return [[one for one in turn if one] for turn in zip_longest(*by_bus.values())]
+
+
+def _values(
+    ports: Ports,
+    clock: Clock,
+    asked: list[tuple[str, int]],
+    register: int,
+    values: dict[tuple[str, int, int], float],
+) -> None:
+    def take(one: Heard) -> None:
+        reply = None if one.frame is None else register_reply(one.frame.data)
+        if reply is not None:
+            values[one.bus, reply.motor_id, reply.register] = reply.value
+
+    exchange(ports, clock, [(bus, read_register(number, register)) for bus, number in asked], take)
+
+
+def _whole(value: float | None) -> int | None:
+    return None if value is None else int(value)
+
+
+def _ranges(values: list[float | None]) -> tuple[float, float, float] | None:
+    told = [value for value in values if value is not None]
+    return (told[0], told[1], told[2]) if len(told) == 3 else None
+
+
+# --- read --------------------------------------------------------------------------------------
+
+
+def readings(ports: Ports, clock: Clock, joints: JointMap) -> list[Reading]:
+    """What every motor says now, each asked once."""
+    answers = interview(ports, clock, joints)
+    asked = {name: one for name, one in joints.joints.items() if answers[name].registers}
+    if asked:
+        read_registers(ports, clock, asked, answers, SUPPLY)
+    return [_reading(name, joints, answers[name]) for name in joints.joints]
+
+
+def _reading(name: str, joints: JointMap, answer: Answers) -> Reading:
+    one, told = joints.joints[name], answer.feedback
+    if told is None:
+        status = "silent" if one.family.asking else "cannot be asked"
+        return Reading(joint=name, bus=one.bus, id=one.id, model=one.model, status=status)
+    return Reading(
+        joint=name,
+        bus=one.bus,
+        id=one.id,
+        model=one.model,
+        status=one.family.status(told.status).code,
+        q_rad=one.joint_rad(told.q_rad),
+        qd_rad_s=one.sign * told.qd_rad_s / one.gear,
+        tau_nm=one.sign * told.tau_nm * one.gear,
+        winding_c=told.winding_c,
+        driver_c=told.driver_c,
+        supply_v=answer.registers.get(SUPPLY),
+    )
+
+
+# --- one joint ---------------------------------------------------------------------------------
+
+
+def bare(joint: Motor) -> Motor:
+    """The motor by its own angles, as far as its frames go."""
+    assert isinstance(joint, JointMotor)
+    most_rad = joint.expected.position_rad
+    return msgspec.structs.replace(
+        joint, sign=1, offset_rad=0.0, gear=1.0, lower_rad=-most_rad, upper_rad=most_rad
+    )
+
+
+def resting(driver: MapDriver, _ports: Ports, _clock: Clock) -> str:
+    """The status of the only joint's motor; "" where it is disabled."""
+    status = driver.status_of(0)
+    return "" if status == DISABLED else status
+
+
+def set_zero(ports: Ports, clock: Clock, joints: JointMap, _at_rad: float) -> None:
+    """Let the only joint's motor call this position zero."""
+    (joint,) = joints.joints.values()
+    exchange(ports, clock, [(joint.bus, joint.family.set_zero(joint.id))], lambda _: None)

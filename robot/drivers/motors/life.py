@@ -1,0 +1,103 @@
+"""The life of a driver of real motors: lines opened, motors asked, claimed, left safe, closed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Generic, TypeVar
+
+from robot.closing import Closing
+from robot.drivers.motors.claim import Claim
+from robot.errors import DriverError
+
+L = TypeVar("L", bound=Closing)
+
+
+class Life(Generic[L]):
+    """Of one driver's lines; what motors are asked and told is up to who has them."""
+
+    def __init__(self, opens: Callable[[], L], claim: Claim) -> None:
+        """Nothing is opened.
+
+        Args:
+            opens: makes the lines.
+            claim: of the right to command them.
+        """
+        self._opens, self._claim = opens, claim
+        self._lines: L | None = None
+
+    @property
+    def lines(self) -> L:
+        """The lines. Raises DriverError if they are not open."""
+        if self._lines is None:
+            raise DriverError("the motors are not open")
+        return self._lines
+
+    def check(self) -> None:
+        """Raises DriverError if they are not open."""
+        _ = self.lines
+
+    def open(self, ask: Callable[[L], None]) -> bool:
+        """Open the lines, and ask motors who they are, unless another program commands them.
+
+        Args:
+            ask: on open lines; raises DriverError where a motor is not what the map says, and the
+                lines are closed again.
+
+        Returns:
+            Whether they were asked.
+
+        Raises:
+            DriverError: if a line cannot be opened, or as `ask`.
+        """
+        lines = self._opens()
+        lines.__enter__()
+        try:
+            if asked := self._claim.is_free():
+                ask(lines)
+        except DriverError:
+            lines.close()
+            raise
+        self._lines = lines
+        return asked
+
+    def claim(self, begin: Callable[[L], None]) -> bool:
+        """Become the one that commands the motors; False while another one does.
+
+        Args:
+            begin: forgets what came in while another one did; where the claim is new.
+
+        Raises:
+            DriverError: the lines are not open.
+        """
+        lines = self.lines
+        if self._claim.is_held:
+            return True
+        if taken := self._claim.take():
+            begin(lines)
+        return taken
+
+    def close(self, leave: Callable[[L], None], left: Callable[[], None]) -> None:
+        """Leave the motors, let go of the claim, and close the lines, if they are open.
+
+        Args:
+            leave: on lines that are still open.
+            left: hears that they are closed, also where `leave` failed.
+
+        Raises:
+            DriverError: as `leave`.
+        """
+        lines, self._lines = self._lines, None
+        if lines is None:
+            return
+        try:
+            leave(lines)
+        finally:
+            self._claim.release()
+            lines.close()
+            left()
+
+
+def not_let_go(joints: Iterable[str]) -> DriverError:
+    """Of motors that may still give torque."""
+    text = f"not seen to let go: {', '.join(joints)}"
+    return DriverError(f"{text} (cut the power before you touch them)")

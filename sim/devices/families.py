@@ -1,0 +1,91 @@
+"""The families of motors that are emulated on a bench: a row each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Generic, Protocol, TypeVar
+
+from robot.bringup import motor_families
+from robot.clock import Clock
+from robot.closing import Closing
+from robot.drivers.motors.can.emulated import INTERFACE
+from robot.drivers.motors.can.ports import socket_path
+from robot.drivers.motors.dynamixel.emulated import terminal_path
+from robot.drivers.motors.motor_map import MotorMap
+from robot.drivers.registry import CAN, DYNAMIXEL
+from sim.devices import bench, servo_bench
+from sim.devices.bench import Bench
+from sim.devices.serial_server import SerialServer
+from sim.devices.server import CanServer
+from sim.devices.servo_bench import ServoBench
+
+B = TypeVar("B")
+B_co = TypeVar("B_co", covariant=True)
+
+
+class Server(Closing, Protocol):
+    """Plays devices in time with a clock."""
+
+    def serve(self, until_s: float) -> None:
+        """Until a time."""
+        ...
+
+
+class Builds(Protocol[B_co]):
+    """Makes the motors of a map."""
+
+    def __call__(
+        self,
+        wanted: Any,
+        *,
+        now_s: float = 0.0,
+        flaws: Mapping[str, str] | None = None,
+        is_still: bool = False,
+    ) -> B_co:
+        """In the middle of their joints' ranges; raises ConfigError as `bench.build`."""
+        ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class EmulatedFamily(Generic[B]):
+    """How one family is emulated.
+
+    Attributes:
+        build: makes its motors.
+        path: where the line of a number is, in a folder.
+        serve: puts them there, as many paths as lines.
+        interface: by which python-can opens such a path; "" of what is no bus of frames.
+    """
+
+    build: Builds[B]
+    path: Callable[[Path, int], Path]
+    serve: Callable[[Sequence[Path], B, Clock], Server]
+    interface: str = ""
+
+
+def _on_sockets(paths: Sequence[Path], built: Bench, clock: Clock) -> Server:
+    return CanServer(list(zip(paths, built.wires.values(), strict=True)), built.devices, clock)
+
+
+def _on_terminals(paths: Sequence[Path], built: ServoBench, clock: Clock) -> Server:
+    return SerialServer(list(zip(paths, built.lines.values(), strict=True)), clock)
+
+
+EMULATED: Mapping[str, EmulatedFamily[Any]] = {
+    CAN: EmulatedFamily(
+        build=bench.build, path=socket_path, serve=_on_sockets, interface=INTERFACE
+    ),
+    DYNAMIXEL: EmulatedFamily(build=servo_bench.build, path=terminal_path, serve=_on_terminals),
+}
+
+
+def loaded(file: Path) -> tuple[MotorMap, EmulatedFamily[Any]]:
+    """A joint map, and how its motors are emulated.
+
+    Raises:
+        ConfigError: with everything that is wrong in the map.
+    """
+    family = motor_families.of_file(file)
+    return family.load(file), EMULATED[family.driver]

@@ -1,0 +1,320 @@
+"""What goes wrong with real motors while they are commanded, a row a fault, both families alike.
+
+Of each: which alarm, at which level, of whom, within how many periods; that people are told it once
+with a cure; that no motor ever gives more than its joint may, before and after; and that what is
+latched ends by a reset alone. What each row stands for is in docs/safety.md.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+import pytest
+
+from robot.drivers.motors.alarms import Level
+from robot.drivers.motors.dynamixel.joint_map import JointServo, Port, ServoMap
+from sim.devices.damiao import Damiao
+from sim.devices.shaft import FreeShaft
+from tests.fakes import can_rig, dynamixel_rig
+
+AnyRig: TypeAlias = can_rig.Rig | dynamixel_rig.Rig
+
+WARM_UP, AFTER = 150, 60
+WHO = "joint0_1"
+
+
+def can() -> can_rig.Rig:
+    """Two buses with two joints each, 500 Hz."""
+    return can_rig.Rig(can_rig.limbs(2, 2))
+
+
+def servos() -> dynamixel_rig.Rig:
+    """Two ports with two joints each, 250 Hz."""
+    return dynamixel_rig.Rig(
+        ServoMap(
+            rate_hz=250,
+            ports={f"port{p}": Port(device=f"tty{p}", baud_hz=4_000_000) for p in range(2)},
+            joints={
+                f"joint{p}_{j}": JointServo(
+                    port=f"port{p}", model="XM540-W270", id=j + 1, lower_rad=-2.0, upper_rad=2.0,
+                    velocity_limit_rad_s=3.0, torque_limit_nm=8.0,
+                )
+                for p in range(2)
+                for j in range(2)
+            },
+        ),
+        is_still=True,
+    )  # fmt: skip
+
+
+def motor_of(rig: AnyRig):
+    return rig.bench.motors[WHO] if isinstance(rig, can_rig.Rig) else rig.bench.servos[WHO]
+
+
+def sets(name: str, value: object) -> Callable[[AnyRig], None]:
+    """Something of the motor itself; `trouble.` of what is wrong with it."""
+
+    def inject(rig: AnyRig) -> None:
+        thing = motor_of(rig)
+        *path, last = name.split(".")
+        for part in path:
+            thing = getattr(thing, part)
+        setattr(thing, last, value)
+
+    return inject
+
+
+def jumps(rig: AnyRig) -> None:
+    motor_of(rig).shaft.q_rad += 1.5
+
+
+def warms(rig: AnyRig) -> None:
+    motor_of(rig).winding_c, motor_of(rig).heat_k_s = 75.0, 0.0
+
+
+def goes_away(rig: AnyRig) -> None:
+    name = "bus0" if isinstance(rig, can_rig.Rig) else "port0"
+    rig.ports[0].gone[name] = "it was pulled out"
+
+
+def goes_off(rig: AnyRig) -> None:
+    assert isinstance(rig, can_rig.Rig)
+    rig.ports[0].node("bus0").garbles = 1000
+
+
+def has_a_twin(rig: AnyRig) -> None:
+    """Somebody plugs in a motor with the same identifier, enabled, and slower to answer.
+
+    (Two that answer at the same moment throw each other off the bus, and are silent.)
+    """
+    one = motor_of(rig)
+    assert isinstance(one, Damiao)
+    twin = Damiao(
+        one.wire, FreeShaft(q_rad=one.shaft.q_rad), one.motor_id, one.reply_id, one.position_rad,
+        one.velocity_rad_s, one.torque_nm, later_s=8e-4,
+    )  # fmt: skip
+    twin.status = 1
+
+
+def stands_still(rig: AnyRig) -> None:
+    """The computer, for longer than any watchdog."""
+    rig.clock.sleep_until(rig.clock.now_s() + 0.06)
+    if isinstance(rig, can_rig.Rig):
+        rig.bench.advance(rig.clock.now_s())
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A row: the alarm that it leads to, within how many periods from its beginning."""
+
+    name: str
+    rig: Callable[[], AnyRig]
+    inject: Callable[[AnyRig], None]
+    code: str
+    level: Level
+    periods: int
+    who: str = WHO
+    is_latched: bool = False
+
+
+def latched(name, rig, inject, code, periods, who=WHO) -> Fault:
+    return Fault(name, rig, inject, code, Level.SIT, periods, who, is_latched=True)
+
+
+FAULTS = [
+    Fault("can_three_losses", can, sets("trouble.loses", 5), "silent", Level.HOLD, 3),
+    latched("can_silent_joint", can, sets("trouble.silent", True), "silent", 10),
+    Fault("can_over_current", can, sets("trouble.status", 0xA), "over_current", Level.HOLD, 2),
+    Fault("can_overload", can, sets("trouble.status", 0xE), "overload", Level.HOLD, 2),
+    latched("can_winding_at_its_limit", can, sets("winding_c", 101.0), "winding_hot", 2),
+    latched("can_driver_at_its_limit", can, sets("driver_c", 130.0), "driver_hot", 2),
+    latched("can_undervoltage", can, sets("volts", 14.0), "under_voltage", 2),
+    latched("can_overvoltage", can, sets("volts", 33.0), "over_voltage", 2),
+    latched("can_disabled_by_somebody", can, sets("status", 0), "disabled", 2),
+    latched("can_watchdog_expired", can, stands_still, "lost_communication", 2),
+    latched("can_encoder_jump", can, jumps, "encoder_jump", 3),
+    latched("can_bus_off", can, goes_off, "bus_off", 20, "bus0"),
+    latched("can_adapter_unplugged", can, goes_away, "unplugged", 1, "bus0"),
+    Fault("can_twin_plugged_in", can, has_a_twin, "duplicate_id", Level.HOLD, 4),
+    Fault("can_warm", can, warms, "warm", Level.DERATE, 1),
+    Fault("servo_three_losses", servos, sets("trouble.spoils", 5), "silent", Level.HOLD, 3),
+    latched("servo_silent", servos, sets("trouble.silent", True), "silent", 6),
+    latched("servo_undervoltage", servos, sets("volts", 9.0), "input_voltage", 4),
+    latched("servo_overvoltage", servos, sets("volts", 17.0), "input_voltage", 4),
+    latched("servo_winding_at_its_limit", servos, sets("winding_c", 90.0), "overheating", 4),
+    latched("servo_encoder", servos, sets("trouble.error", 1 << 3), "motor_encoder", 4),
+    latched("servo_overload", servos, sets("trouble.error", 1 << 5), "overload", 4),
+    latched("servo_watchdog_expired", servos, stands_still, "lost_communication", 1, "servos"),
+    latched("servo_encoder_jump", servos, jumps, "encoder_jump", 3),
+    latched("servo_port_unplugged", servos, goes_away, "unplugged", 1, "port0"),
+    Fault("servo_noisy_line", servos, sets("trouble.spoils", 1000), "noisy", Level.WARN, 251,
+          "port0"),
+    Fault("servo_warm", servos, warms, "warm", Level.DERATE, 51),
+]  # fmt: skip
+
+
+class Watched:
+    """A rig at work; every period looks whether any motor gives more than its joint may."""
+
+    def __init__(self, rig: AnyRig) -> None:
+        self.rig = rig
+        self.worst = 0.0
+
+    def cycle(self, periods: int = 1):
+        for _ in range(periods):
+            state = self.rig.cycle(1, q=0.3)
+            motors = (
+                self.rig.bench.motors
+                if isinstance(self.rig, can_rig.Rig)
+                else self.rig.bench.servos
+            )
+            for name, one in self.rig.joints.joints.items():
+                share = abs(motors[name].tau_nm) * one.gear / one.torque_limit_nm
+                self.worst = max(self.worst, share)
+        return state
+
+
+@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.name)
+def test_a_fault_is_named_at_its_level_in_time_and_no_motor_gives_more_than_it_may(fault: Fault):
+    rig = fault.rig()
+    at_work = Watched(rig)
+    with rig.driver as driver:
+        told: list[str] = []
+        driver._news._tell = told.append
+        at_work.cycle(WARM_UP)
+        assert not driver.alarms.on
+        fault.inject(rig)
+        for _ in range(fault.periods):
+            state = at_work.cycle()
+            found = [one for one in state.alarms if (one.code, one.who) == (fault.code, fault.who)]
+            if found and found[0].level == fault.level.name:
+                break
+        else:
+            pytest.fail(f"not within {fault.periods} periods: {state.alarms}")
+        (alarm,) = found
+        assert alarm.cure
+        is_on = {(one.code, one.who): one for one in driver.alarms.on}
+        assert is_on[fault.code, fault.who].is_latched == fault.is_latched
+        words = f", {fault.level.name}: {fault.who}: {alarm.cause}"
+        said = [line for line in told if words in line]
+        assert len(said) == 1, told
+        at_work.cycle(AFTER)
+        assert at_work.worst <= 1.01
+        assert np.isfinite(driver.write(rig.hold(0.3)).tau_ff).all()
+        driver.read()
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [one for one in FAULTS if one.is_latched and one.inject not in (goes_away, goes_off, jumps)],
+    ids=lambda fault: fault.name,
+)
+def test_what_is_latched_stays_when_its_cause_has_gone_and_ends_by_a_reset(fault: Fault):
+    rig = fault.rig()
+    with rig.driver as driver:
+        Watched(rig).cycle(WARM_UP)
+        fault.inject(rig)
+        Watched(rig).cycle(fault.periods)
+        heal(rig)
+        Watched(rig).cycle(AFTER)
+        assert fault.code in {alarm.code for alarm in driver.alarms.on}
+        driver.reset()
+        Watched(rig).cycle(AFTER)
+        assert driver.alarms.level <= Level.WARN  # a second ago the line was noisy
+
+
+def heal(rig: AnyRig) -> None:
+    """As a person does it who found the cause: it is gone, and the motor was off and on again."""
+    motor = motor_of(rig)
+    motor.trouble = type(motor.trouble)()
+    motor.winding_c = 30.0
+    if isinstance(motor, Damiao):
+        motor.volts, motor.driver_c, motor.status = 24.0, 30.0, 0
+    else:
+        motor.volts = motor.kind.volts
+        motor.reboot()
+
+
+@pytest.mark.parametrize("make", [can, servos])
+def test_losses_that_end_let_joints_go_on_where_they_are_sent(make):
+    rig = make()
+    with rig.driver as driver:
+        Watched(rig).cycle(WARM_UP)
+        servo = motor_of(rig)
+        setattr(servo.trouble, "loses" if isinstance(servo, Damiao) else "spoils", 4)
+        Watched(rig).cycle(4)
+        assert driver.alarms.level == Level.HOLD
+        Watched(rig).cycle(4)
+        assert driver.alarms.level == Level.OK
+        sent = [driver.write(rig.hold(0.8, kp=5.0)), driver.read()][1]
+        assert not sent.alarms
+
+
+@pytest.mark.parametrize("make", [can, servos])
+def test_at_hold_nothing_new_is_obeyed_and_at_sit_commands_pass_to_what_is_left(make):
+    rig = make()
+    well = 3  # a joint on the other bus or port
+    with rig.driver as driver:
+        before = Watched(rig).cycle(WARM_UP).q[well]
+        motor_of(rig).trouble.silent = True
+        Watched(rig).cycle(3)
+        assert driver.alarms.level == Level.HOLD
+        while driver.alarms.level == Level.HOLD:
+            state = rig.cycle(1, q=1.0)
+            assert abs(state.q[well] - before) < 0.02
+        assert driver.alarms.level == Level.SIT
+        state = rig.cycle(200, q=1.0)
+        assert state.q[well] == pytest.approx(1.0, abs=0.1)
+
+
+def test_a_servo_that_tells_wrong_speeds_is_seen_within_200_ms_of_moving():
+    rig = servos()
+    with rig.driver:
+        Watched(rig).cycle(WARM_UP)
+        motor_of(rig).suffer("slow_speed")
+        moves_s, seen_s = [], []
+        for k in range(75):
+            state = rig.cycle(1, q=0.3 + 0.4 * np.sin(0.05 * k), kp=20.0, kd=1.0)
+            if abs(motor_of(rig).shaft.qd_rad_s) > 0.5:
+                moves_s.append(rig.clock.now_s())
+            if "speed_mismatch" in {alarm.code for alarm in state.alarms}:
+                assert state.alarms[0].level == "HOLD"
+                seen_s.append(rig.clock.now_s())
+        assert seen_s
+        assert seen_s[0] - moves_s[0] < 0.15 + 0.05  # two windows that begin in motion
+
+
+def test_garbage_on_a_port_is_skipped_and_costs_no_period():
+    rig = servos()
+    draw = np.random.default_rng(3)
+    with rig.driver as driver:
+        state = Watched(rig).cycle(WARM_UP)
+        for k in range(50):
+            noise = draw.integers(0, 256, int(draw.integers(1, 40))).astype(np.uint8).tobytes()
+            rig.ports[0]._kept["port0"] = noise + (b"\xff\xff\xfd\x00" if k % 3 else b"")
+            begun_s = rig.clock.now_s()
+            state = rig.cycle(1, q=0.3)
+            assert rig.clock.now_s() - begun_s <= rig.joints.period_s * 1.001
+        assert np.isfinite(state.q).all()
+        assert (state.age_s[2:] < rig.joints.period_s + 1e-9).all()  # the other port
+        assert driver.alarms.level < Level.SIT
+        Watched(rig).cycle(5)
+        assert not {"silent", "encoder_jump"} & {alarm.code for alarm in driver.alarms.on}
+
+
+def test_a_bus_without_power_warns_within_10_ms_and_never_queues_what_is_old():
+    rig = can()
+    with rig.driver as driver:
+        Watched(rig).cycle(WARM_UP)
+        for name in ("joint0_0", "joint0_1"):
+            rig.bench.wires["bus0"].detach(rig.bench.motors[name]._node)
+        full: list[float] = []
+        begun_s = rig.clock.now_s()
+        for _ in range(40):
+            rig.cycle(1, q=0.3)
+            if "queue_full" in {alarm.code for alarm in driver.alarms.on}:
+                full.append(rig.clock.now_s() - begun_s)
+            assert driver.queues["bus0"].waiting <= 2
+        assert full
+        assert full[0] <= 0.01 + 10 * 0.002  # an interface's own queue of ten frames fills first
