@@ -18,6 +18,7 @@ from executive.meaning import answers
 from executive.meaning.handlers import handling, moving, people, seeing, steps
 from executive.meaning.handlers.settling import counted, settle
 from executive.meaning.identify import Scene, Unsettled, cannot
+from executive.meaning.in_here import without_here
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.stopovers import without_stopovers
 from executive.skills.pick import PickParams
@@ -35,7 +36,7 @@ def understand(asked: Iterable[goals.Goal], scene: Scene) -> Series:
     Raises:
         CannotMean: if one of them has no meaning here, or no skill does it.
     """
-    parts = sequence(tuple(asked), scene)
+    parts = sequence(without_here(asked), scene)
     if not parts:
         raise cannot("invalid_goal", "there is nothing to do")
     task = Series(name="task", parts=(*parts, *last_look(parts, scene.knowledge)))
