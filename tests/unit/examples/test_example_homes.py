@@ -20,7 +20,6 @@ WAITING = {
     "ask Nurse Kim if she needs anything": "nobody can be asked on behalf of somebody else yet",
     "the blue mug and the red mug belong on the deck table, take them there please": "asked back",
     "how many apples have we got on board?": "a board is taken for one of a shelf, and asked for",
-    "tell the librarian that the printer is out of paper": "refused as something to find out",
 }
 """Wishes as they were typed that are not understood yet, and how they end."""
 
