@@ -6,6 +6,7 @@ import math
 
 from executive.meaning import answers
 from executive.meaning.handlers.moving import go_to_person
+from executive.meaning.handlers.people import to_their_face
 from executive.meaning.handlers.settling import counted, where_words
 from executive.meaning.handlers.steps import (
     about,
@@ -81,7 +82,7 @@ def find(goal: goals.Find, scene: Scene) -> Part:
 
 
 def count(goal: goals.Count, scene: Scene) -> Part:
-    """Look wherever it was said, then say how many there are."""
+    """Look wherever it was said, then say how many there are, to somebody's face if to whom."""
     query = goal.object
     if query is None:
         raise cannot("unsupported", "this robot cannot count people yet")
@@ -99,7 +100,8 @@ def count(goal: goals.Count, scene: Scene) -> Part:
         places = to_look_over(scene.places(query.at), scene)
         looks = inspect(f"look over the {query.at}", query.at, scene)
         tell = answers.count(ids, places, noun=noun, where=f" {_where(query, scene)}")
-    return Series(name=name, parts=(*looks, Errand(name="say how many", params=tell)))
+    told = to_their_face(goal.to, scene)
+    return Series(name=name, parts=(*looks, *told, Errand(name="say how many", params=tell)))
 
 
 def _look_over_the_room(scene: Scene) -> Part:

@@ -154,6 +154,16 @@ def test_counting_looks_over_all_of_the_place_first():
     assert say.name == "say how many"
 
 
+def test_who_is_to_be_told_how_many_is_gone_to_first():
+    assert steps("count the cups on the table and let Ann know") == [
+        "look over the table",
+        "go to Ann",
+        "look at Ann",
+        "say how many",
+    ]
+    assert steps("tell me how many cups are on the table") == ["look over the table", "say how many"]
+
+
 def test_several_things_are_fetched_one_after_the_other():
     assert steps("bring all cups to the table") == [
         "find the red cup",

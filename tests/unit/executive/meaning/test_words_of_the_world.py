@@ -440,3 +440,16 @@ def test_what_is_counted_is_said_in_the_worlds_own_plural():
     assert callable(tell.params)
     assert tell.params(board()).text == "I see 0 boxes on the counter."
     assert tell.params(board(tea=(0.0, 2.5))).text == "I see 1 box on the counter."
+
+
+def test_what_was_taken_from_beside_something_is_put_where_it_goes():
+    """The place that it goes to is said with it: "put it in the kitchen on the table"."""
+    beside = goals.Relation(how="near", of=goals.ObjectQuery(name="tea box"))
+    mug = goals.ObjectQuery(name="mug", relation=beside)
+    put = goals.Place(object=msgspec.structs.replace(mug, at="kitchen"), on="table")
+    outcome = meant("", (goals.Pick(object=mug), put), WHERE)
+    assert isinstance(outcome, Understood)
+    (settle,) = [part for _, part in walk(outcome.task) if isinstance(part, Settle)]
+    assert isinstance(settle.then(("blue",)), Part)
+    done = [type(one.params) for one in errands(settle.then(("blue",)))]
+    assert done == [PickParams, PlaceParams]
