@@ -414,9 +414,12 @@ def _home(clause: Clause, scope: Scope) -> Target | None:
     """Put it away, *it lives in the drawer*: where it belongs, told behind the order."""
     text, at = clause.text, clause.end
     at += text.word(at) in (COMMA, FULL_STOP)
-    if at >= len(text) or text.word(at) not in _IT or text.word(at + 1) not in _LIVES:
+    if at >= len(text) or text.word(at) not in _IT:
         return None
-    complements, _ = read_complements(text, at + 2)
+    at += 1 + (text.word(at + 1) in ("all", "both"))  # they all belong in the box
+    if text.word(at) not in _LIVES:
+        return None
+    complements, _ = read_complements(text, at + 1)
     return destination(Slots(dataclasses.replace(clause, complements=complements), scope))
 
 
