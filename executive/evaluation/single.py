@@ -49,7 +49,8 @@ def _carried_out(run: Run, reality: Reality, folder: Path) -> Record:
         return _Trial(run, given, folder).carry_out()
     return Record(
         key=run.key, digest=run.digest, case=run.case.name, seed=run.seed, recovery=run.recovery,
-        ok=not {given.outcome, REFUSED}.isdisjoint(run.case.codes), code=given.outcome, cause=given.reason,
+        ok=not {given.outcome, REFUSED}.isdisjoint(run.case.codes), code=given.outcome,
+        cause=given.reason,
     )  # fmt: skip
 
 

@@ -15,9 +15,10 @@ from executive.skills.motions.survey import ENOUGH, Prospect, Survey
 from executive.skills.say import SayParams
 from intents import replies
 from intents.english.trouble import listing
+from intents.english.words.lexer import singular
 from intents.goals import ReportTopic
 from intents.numbers import Noun
-from robot.messages import Place, Track, WorldMap
+from robot.messages import ObjectInfo, Place, Track, WorldMap
 
 
 def is_held(ids: frozenset[str], *, least: int = 1) -> Predicate:
@@ -99,6 +100,29 @@ def say_count(number_of: Callable[[Blackboard], int], *, noun: Noun, where: str 
     def words(board: Blackboard) -> SayParams:
         number = number_of(board)
         return SayParams(text=f"I see {number} {noun.of(number)}{where}.")
+
+    return words
+
+
+def whereabouts(info: ObjectInfo, knowledge: Knowledge) -> Bound:
+    """Says where a thing is believed to be: "The red cup is on the desk in the study."."""
+
+    def words(board: Blackboard) -> SayParams:
+        name = f"{info.full_name[:1].upper()}{info.full_name[1:]}"
+        world = board.read(WORLD)
+        tracks = () if world is None else world.tracks
+        track = next((one for one in tracks if one.id == info.id), None)
+        if info.id in board.read(HELD).values():
+            return SayParams(text=f"{name} is in my hand.")
+        if track is None or track.X_WO is None or track.missing:
+            return SayParams(text=f"I do not know where {info.full_name} is.")
+        surface, room = knowledge.surface_under(track.X_WO), knowledge.room_at(track.X_WO.p)
+        places = [f" on the {surface.name}"] if surface is not None else []
+        places += [f" in the {room}"] if room else []
+        last = info.plain_name.rpartition(" ")[2]
+        be = "are" if singular(last) != last else "is"
+        text = f"{name} {be}{''.join(places)}." if places else f"I see {info.full_name}."
+        return SayParams(text=text)
 
     return words
 

@@ -287,6 +287,7 @@ HANDLERS: dict[type[Any], Handler] = {
     goals.Meet: people.meet,
     goals.Say: people.say,
     goals.Count: seeing.count,
+    goals.Tell: seeing.tell,
     goals.LookAt: seeing.look_at,
     goals.Balance: moving.balance,
     goals.Wait: moving.wait,
@@ -308,7 +309,6 @@ _MISSING: dict[type[Any], str] = {
     goals.Close: "this robot cannot close things yet",
     goals.Switch: "this robot cannot switch things yet",
     goals.Answer: "this robot cannot answer questions yet",
-    goals.Tell: "this robot cannot find that out yet",
     goals.Pause: "there is nothing to pause before it has begun",
     goals.Resume: "there is nothing to go on with",
 }

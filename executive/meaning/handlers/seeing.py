@@ -28,6 +28,7 @@ from intents import goals
 from robot.messages import ObjectInfo
 
 AROUND, BEHIND = "around", "behind"
+LOCATION = "location"
 _SIDES: dict[str, Side] = {side: side for side in SIDES}
 
 
@@ -79,6 +80,22 @@ def find(goal: goals.Find, scene: Scene) -> Part:
     found = scene.person(goal.person)
     look = Errand(name=f"look at {found.name}", params=LookParams(person_id=found.id))
     return Series(name=f"find {found.name}", parts=(go_to_person(goal.person, scene), look))
+
+
+def tell(goal: goals.Tell, scene: Scene) -> Part:
+    """Find a thing, then say where it is, to somebody's face if to whom.
+
+    Raises:
+        CannotMean: something else is to be found out.
+    """
+    if goal.object is None or goal.property != LOCATION:
+        raise cannot("unsupported", "this robot cannot find that out yet")
+    info = scene.object(goal.object)
+    where = Errand(
+        name=f"say where {info.full_name} is", params=answers.whereabouts(info, scene.knowledge)
+    )
+    parts = (search(info, goal.object, scene), *to_their_face(goal.to, scene), where)
+    return Series(name=f"tell where {info.full_name} is", parts=parts)
 
 
 def count(goal: goals.Count, scene: Scene) -> Part:

@@ -19,6 +19,7 @@ from intents.goals import (
     OPERATOR,
     Balance,
     Bring,
+    Find,
     ForEach,
     Give,
     Goal,
@@ -27,6 +28,7 @@ from intents.goals import (
     Person,
     Pick,
     Place,
+    Tell,
     Wait,
 )
 
@@ -403,11 +405,23 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     spot = spot or _home(clause, scope)
     down = clause.sense == "drop" or "down" in clause.particles()
     if spot is None and clause.verb == "leave":
-        raise NotUnderstood("All right, I leave it as it is")
+        return _left_there(slots, scope)
     if spot is None and not down:
         raise Unclear("Where shall I put it?" if len(objects) == 1 else "Where shall I put them?")
     slots.done()
     return [_each(o, lambda q: put_at(q, spot)) for o in objects]
+
+
+def _left_there(slots: Slots, scope: Scope) -> list[Goal]:
+    """Find the cup, *but leave it there*: nothing more; alone it is nothing at all.
+
+    Raises:
+        NotUnderstood: Nothing else was asked for.
+    """
+    if not isinstance(scope.last, Find | Tell):
+        raise NotUnderstood("All right, I leave it as it is")
+    slots.done()
+    return []
 
 
 def _home(clause: Clause, scope: Scope) -> Target | None:

@@ -25,9 +25,7 @@ def test_what_is_where_the_operator_is_may_be_anywhere():
 def test_so_is_what_a_condition_asks_for():
     present = goals.Present(object=thing(at="operator"))
     found = without_here((goals.If(condition=present, then=(goals.Stop(),)),))
-    assert found == (
-        goals.If(condition=goals.Present(object=thing()), then=(goals.Stop(),)),
-    )
+    assert found == (goals.If(condition=goals.Present(object=thing()), then=(goals.Stop(),)),)
 
 
 def test_other_places_stay_as_they_are():
