@@ -20,6 +20,7 @@ from executive.meaning.handlers.settling import counted, settle
 from executive.meaning.identify import Scene, Unsettled, cannot
 from executive.meaning.in_here import without_here
 from executive.meaning.knowledge import Knowledge
+from executive.meaning.staying import with_an_end
 from executive.meaning.stopovers import without_stopovers
 from executive.skills.pick import PickParams
 from executive.trees.parts import Branch, Errand, Kept, Part, Series, errands
@@ -36,7 +37,7 @@ def understand(asked: Iterable[goals.Goal], scene: Scene) -> Series:
     Raises:
         CannotMean: if one of them has no meaning here, or no skill does it.
     """
-    parts = sequence(without_here(asked), scene)
+    parts = sequence(with_an_end(without_here(asked)), scene)
     if not parts:
         raise cannot("invalid_goal", "there is nothing to do")
     task = Series(name="task", parts=(*parts, *last_look(parts, scene.knowledge)))
