@@ -189,7 +189,7 @@ def _fits(entity: Entity, query: ObjectQuery) -> bool:
         or entity.held
     )
     return (
-        (query.name is None or _alike(entity.name, query.name))
+        (query.name is None or _alike(entity.name, query.name) or entity.id == query.name)
         and (query.category is None or _alike(entity.category, query.category))
         and (query.color is None or entity.color == query.color)
         and near

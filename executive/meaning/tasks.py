@@ -203,7 +203,7 @@ def _about(goal: goals.Goal, same: Collection[goals.ObjectQuery], info: ObjectIn
     }
     query = getattr(goal, "object", None)
     if isinstance(query, goals.ObjectQuery) and query in same:
-        slots["object"] = _named(query, info)
+        slots["object"] = goals.ObjectQuery(name=info.id)  # it was just seen where it is
     return msgspec.structs.replace(goal, **slots)
 
 

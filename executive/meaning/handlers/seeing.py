@@ -116,7 +116,11 @@ def count(goal: goals.Count, scene: Scene) -> Part:
         ids = frozenset(info.id for info in scene.fitting(query))
         places = to_look_over(scene.places(query.at), scene)
         looks = inspect(f"look over the {query.at}", query.at, scene)
-        tell = answers.count(ids, places, noun=noun, where=f" {_where(query, scene)}")
+        if len(places) > 1:  # what is higher than the eyes hides nothing of the rest
+            looks = tuple(tolerant(look, ["place_not_seen"]) for look in looks)
+        tell = answers.count(
+            ids, places, noun=noun, where=f" {_where(query, scene)}", of=scene.knowledge.map
+        )
     told = to_their_face(goal.to, scene)
     return Series(name=name, parts=(*looks, *told, Errand(name="say how many", params=tell)))
 

@@ -95,3 +95,7 @@ def test_what_names_have_in_common_means_all_of_them() -> None:
 def test_a_name_means_nothing_longer_where_something_is_called_so() -> None:
     jam = Entity(id="j3", name="jam")
     assert ground(ObjectQuery(name="jam"), (STRAWBERRY, PLUM, jam)) == Grounded("j3", ("j3",))
+
+
+def test_an_id_means_what_has_it() -> None:
+    assert ground(ObjectQuery(name="c2", at="shelf"), HOME) == Grounded("c2", ("c2",))

@@ -434,6 +434,23 @@ def test_what_was_taken_and_is_not_held_is_named():
     assert part.gone(board(left="red"), {}, {"red"}) == []
 
 
+def test_a_count_in_a_room_says_what_could_not_be_seen():
+    look, tell = understood("how many boxes are there in the kitchen?").task.parts[0].parts
+    assert dict(look.handlers).keys() == {"place_not_seen"}  # the top of the fridge, say
+    told = tell.params(board()).text
+    assert told.startswith("I see 0 boxes in the kitchen. I have not seen all of the ")
+
+
+def test_what_a_condition_found_is_taken_from_where_it_is_said_to_be():
+    text = "if there is a mug on the table, put it on the counter"
+    branch = parts(text, Branch)[0]
+    taken = [
+        one.params.object_id for one in errands(branch.then) if hasattr(one.params, "object_id")
+    ]
+    assert set(taken) == {"red"}
+    assert not [part for _, part in walk(branch.then) if isinstance(part, Settle)]
+
+
 def test_what_is_counted_is_said_in_the_worlds_own_plural():
     *_, tell = errands(understood("how many boxes are there on the counter?").task)
     assert isinstance(tell, Errand)
