@@ -140,7 +140,7 @@ def ground(
         ranks: Other ways to measure superlatives; the largest measure wins.
     """
     known = list(entities)
-    fitting = [e for e in known if _fits(e, query)]
+    fitting = [e for e in known if _fits(e, query)] or _of_the_kind(known, query)
     if query.relation and fitting:
         fitting = _related(fitting, query.relation, known, view)
     if query.except_:
@@ -158,6 +158,15 @@ def ground(
     if len(fitting) == 1:
         return Grounded(fitting[0].id, (fitting[0].id,))
     return _ambiguous(query, fitting)
+
+
+def _of_the_kind(known: list[Entity], query: ObjectQuery) -> list[Entity]:
+    """Those that fit but for the first words of their names: the strawberry jam as "the jam"."""
+    kind = (query.name or "").lower()
+    if not kind or any(_alike(e.name, kind) for e in known):
+        return []
+    named = [e for e in known if _alike(e.name.rpartition(" ")[2], kind)]
+    return [e for e in named if _fits(e, replace(query, name=None))]
 
 
 def by_where(query: ObjectQuery) -> bool:
@@ -180,7 +189,7 @@ def _fits(entity: Entity, query: ObjectQuery) -> bool:
         or entity.held
     )
     return (
-        (query.name is None or _alike(entity.name, query.name))
+        (query.name is None or _alike(entity.name, query.name) or entity.id == query.name)
         and (query.category is None or _alike(entity.category, query.category))
         and (query.color is None or entity.color == query.color)
         and near

@@ -29,7 +29,13 @@ def world_map(world: World) -> WorldMap:
         places=tuple(places(world).values()),
         objects=tuple(_object_info(item) for item in world.objects),
         people=tuple(
-            PersonInfo(id=p.id, name=p.title, X_WO=pose_of(p), radius_m=PERSON_RADIUS_M)
+            PersonInfo(
+                id=p.id,
+                name=p.title,
+                X_WO=pose_of(p),
+                radius_m=PERSON_RADIUS_M,
+                synonyms=p.synonyms,
+            )
             for p in world.people
         ),
         categories=categories(world),

@@ -18,11 +18,13 @@ import numpy as np
 from robot.messages import Heard
 from robot.model.description import RobotDescription
 from sim import furniture
+from sim.footprint import Point
 from sim.somebody import PERIOD_S, Script, Somebody, floor
 from sim.standing_room import (
     BACK_M,
     LANE_M,
     ROBOT_M,
+    WALKING_M,
     WIDE_LANE_M,
     Around,
     in_the_way,
@@ -41,6 +43,10 @@ WAY_M = 2.0
 """Within which somebody stands in the robot's way, if they stand before it."""
 AGAIN_S = 20.0
 """Who made room so short a time ago and is asked again knows that it was not enough."""
+PATIENCE_S = 3.0
+"""So long somebody stands until a robot has passed that is where they wanted to go."""
+NEARER_M = 0.02
+"""By as much they come nearer to a robot that is near already."""
 Wish = Literal["take", "make room", "answer", ""]
 
 
@@ -150,9 +156,30 @@ class People:
         ways = (way_out(self._world, one.at, around, apart_m=apart_m, lane_m=m) for m in lanes_m)
         way = next(filter(None, ways), ())
         for spot in way:
-            yield from one.walk(spot)
+            if not (yield from self._walk(one, spot)):
+                break
         one.made_room_s = self._data.time
         return bool(way)
+
+    def _walk(self, one: Somebody, spot: Point) -> Script:
+        """Walk to a spot; whoever would walk into a robot that has walked on stands instead.
+
+        False if it does not leave.
+        """
+        walk, patience_s = one.walk(spot), PATIENCE_S
+        least_m = min(WALKING_M, math.dist(one.at, self._robot) - NEARER_M)
+        while patience_s > 0.0:
+            if math.dist(one.step_towards(spot), self._robot) < least_m:
+                patience_s -= PERIOD_S
+            elif next(walk, "over") == "over":
+                return True
+            yield
+        return False
+
+    @property
+    def _robot(self) -> Point:
+        """Where the robot is on the floor."""
+        return floor(self._data.xpos[self._base])
 
     def _lanes_m(self, one: Somebody) -> tuple[float, ...]:
         """How wide a lane somebody leaves, best first: who has to make room again leaves more."""

@@ -7,7 +7,6 @@ from collections.abc import Callable, Generator
 from typing import TypeAlias
 
 import mujoco
-import numpy as np
 
 from robot.se3 import SE3, Array, wrap_angle
 from sim.footprint import Point
@@ -59,11 +58,16 @@ class Somebody:
 
     def walk(self, spot: Point) -> Generator[None]:
         """Glide to a spot, facing as before."""
-        while (left_m := math.dist(self.at, spot)) > 1e-3:
-            part = min(1.0, WALK_M_S * PERIOD_S / left_m)
-            pos = self._data.mocap_pos[self._mocap]
-            pos[:2] += part * (np.array(spot) - pos[:2])
+        while math.dist(self.at, spot) > 1e-3:
+            self._data.mocap_pos[self._mocap][:2] = self.step_towards(spot)
             yield
+
+    def step_towards(self, spot: Point) -> Point:
+        """Where they are one tick on, if they go there."""
+        x, y = self.at
+        left_m = math.dist((x, y), spot)
+        part = min(1.0, WALK_M_S * PERIOD_S / max(left_m, 1e-9))
+        return (x + part * (spot[0] - x), y + part * (spot[1] - y))
 
     def turn(self, towards: Callable[[], Point]) -> Generator[None]:
         """Turn on the spot to face a point, wherever that is by then."""

@@ -31,6 +31,8 @@ from robot.yaml_nodes import Node
 
 SHIPPED = Path(__file__).parent / "campaign.yaml"
 RECOVERED = "recovered"
+REFUSED = "refused"
+"""In place of a code: the sentence leads to nothing, refused or asked back for whatever reason."""
 LIMIT_S = 420.0
 """Of robot time: a fetch through three rooms takes some 150 s, with a search and a retry 300 s."""
 IDEAL = "ideal"

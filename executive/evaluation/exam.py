@@ -18,7 +18,7 @@ from typing import Annotated, Any
 import msgspec
 from msgspec import Meta
 
-from executive.evaluation.campaign import LIMIT_S, Case, Settings
+from executive.evaluation.campaign import LIMIT_S, REFUSED, Case, Settings
 from robot import config, yaml_nodes
 from robot.errors import ConfigError, Problem
 from robot.failures import CATALOGUE
@@ -41,7 +41,8 @@ class Task(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         say: what is typed.
         truth: what has to be so in the simulator at the end (`robot.reality.truth`).
         person_s: what a calm person would need.
-        or_code: a failure that counts as well, if the truth holds.
+        or_code: a failure that counts as well, if the truth holds; `REFUSED`: the sentence is
+            refused or asked back, for whatever reason, and nothing moves.
         limit_s: of robot time.
         expect: conditions of a mission that the robot should believe then; for people, not judged.
         fair: why a judgement is as it is.
@@ -97,7 +98,7 @@ def load(path: Path, settings: Settings) -> tuple[Case, ...]:
 
 def _problems(task: Task, world_map: WorldMap) -> list[Problem]:
     found: list[Problem] = []
-    if task.or_code and task.or_code not in CATALOGUE:
+    if task.or_code and task.or_code not in (REFUSED, *CATALOGUE):
         hint = config.nearest(task.or_code, list(CATALOGUE))
         found.append(Problem(f"unknown failure code {shown(task.or_code)}", suggestion=hint))
     try:

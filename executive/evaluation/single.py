@@ -10,7 +10,7 @@ from typing import Any
 
 import msgspec
 
-from executive.evaluation.campaign import Meant, Run, Settings, meant
+from executive.evaluation.campaign import REFUSED, Meant, Run, Settings, meant
 from executive.evaluation.record import Record
 from executive.journal import journal
 from executive.missions import fault_plans
@@ -49,7 +49,8 @@ def _carried_out(run: Run, reality: Reality, folder: Path) -> Record:
         return _Trial(run, given, folder).carry_out()
     return Record(
         key=run.key, digest=run.digest, case=run.case.name, seed=run.seed, recovery=run.recovery,
-        ok=given.outcome in run.case.codes, code=given.outcome, cause=given.reason,
+        ok=not {given.outcome, REFUSED}.isdisjoint(run.case.codes), code=given.outcome,
+        cause=given.reason,
     )  # fmt: skip
 
 
@@ -136,7 +137,7 @@ class _Trial:
         safe = verdict.upright or (case.damped and verdict.damped)
         code, cause = (reason.code, reason.cause) if reason else ("done", "")
         wrong = verdict.wrong if code == "done" else ()
-        there = not verdict.wrong and verdict.upright
+        there = not verdict.wrong and verdict.upright and REFUSED not in case.codes
         if case.kind:  # an ending that counts does so only where the truth holds
             ok = there and (code == "done" or code in case.codes)
         else:

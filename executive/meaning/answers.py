@@ -15,9 +15,10 @@ from executive.skills.motions.survey import ENOUGH, Prospect, Survey
 from executive.skills.say import SayParams
 from intents import replies
 from intents.english.trouble import listing
+from intents.english.words.lexer import singular
 from intents.goals import ReportTopic
 from intents.numbers import Noun
-from robot.messages import Place, Track, WorldMap
+from robot.messages import ObjectInfo, Place, Track, WorldMap
 
 
 def is_held(ids: frozenset[str], *, least: int = 1) -> Predicate:
@@ -57,28 +58,44 @@ def gone(
     return names
 
 
-def count(ids: frozenset[str], places: Iterable[Place], *, noun: Noun, where: str = "") -> Bound:
-    """Says how many of the objects have been seen (on one of the places, if any)."""
+def count(
+    ids: frozenset[str], places: Iterable[Place], *, noun: Noun, where: str, of: WorldMap
+) -> Bound:
+    """Says how many of the objects have been seen on some places of a map, and what was not seen.
+
+    Who was to look at one place, and saw little of it, has failed before it comes to that.
+    """
     surfaces = tuple(places)
-    return say_count(lambda board: len(_seen(board, ids, surfaces)), noun=noun, where=where)
+
+    def words(board: Blackboard) -> SayParams:
+        told = _counted(len(_seen(board, ids, surfaces)), noun, where)
+        missed = not_looked_over(board, of, surfaces) if len(surfaces) > 1 else ""
+        return SayParams(text=f"{told} I have not seen all of {missed}." if missed else told)
+
+    return words
 
 
 def count_everywhere(ids: frozenset[str], world_map: WorldMap, *, noun: Noun) -> Bound:
     """Says how many of the objects have been seen at all, and where nobody has looked."""
 
     def words(board: Blackboard) -> SayParams:
-        number = len(_seen(board, ids, ()))
-        told = f"I see {number} {noun.of(number)}."
+        told = _counted(len(_seen(board, ids, ())), noun)
         missed = not_looked_over(board, world_map)
         return SayParams(text=f"{told} I have not looked at {missed}." if missed else told)
 
     return words
 
 
-def not_looked_over(board: Blackboard, world_map: WorldMap) -> str:
-    """The surfaces of which not enough has been in view, those of a room together; or nothing."""
+def not_looked_over(
+    board: Blackboard, world_map: WorldMap, surfaces: Iterable[Place] | None = None
+) -> str:
+    """Those surfaces, or of all, of which not enough has been in view, or nothing.
+
+    Those of a room are told together.
+    """
     world = board.read(WORLD)
-    survey = Survey(Prospect(place=place) for place in surfaces_of(world_map))
+    every = surfaces_of(world_map) if surfaces is None else surfaces
+    survey = Survey(Prospect(place=place) for place in every)
     survey.take(world.looked if world is not None else ())
     missed = [place for place in survey.places if survey.seen_share(place) < ENOUGH]
     rooms = {place.id: place for place in world_map.places if place.floor}
@@ -95,10 +112,33 @@ def not_looked_over(board: Blackboard, world_map: WorldMap) -> str:
 
 def say_count(number_of: Callable[[Blackboard], int], *, noun: Noun, where: str = "") -> Bound:
     """Says how many there are: "I see 2 boxes on the desk."."""
+    return lambda board: SayParams(text=_counted(number_of(board), noun, where))
+
+
+def _counted(number: int, noun: Noun, where: str = "") -> str:
+    """How many there are, in words."""
+    return f"I see {number} {noun.of(number)}{where}."
+
+
+def whereabouts(info: ObjectInfo, knowledge: Knowledge) -> Bound:
+    """Says where a thing is believed to be: "The red cup is on the desk in the study."."""
 
     def words(board: Blackboard) -> SayParams:
-        number = number_of(board)
-        return SayParams(text=f"I see {number} {noun.of(number)}{where}.")
+        name = f"{info.full_name[:1].upper()}{info.full_name[1:]}"
+        world = board.read(WORLD)
+        tracks = () if world is None else world.tracks
+        track = next((one for one in tracks if one.id == info.id), None)
+        if info.id in board.read(HELD).values():
+            return SayParams(text=f"{name} is in my hand.")
+        if track is None or track.X_WO is None or track.missing:
+            return SayParams(text=f"I do not know where {info.full_name} is.")
+        surface, room = knowledge.surface_under(track.X_WO), knowledge.room_at(track.X_WO.p)
+        places = [f" on the {surface.name}"] if surface is not None else []
+        places += [f" in the {room}"] if room else []
+        last = info.plain_name.rpartition(" ")[2]
+        be = "are" if singular(last) != last else "is"
+        text = f"{name} {be}{''.join(places)}." if places else f"I see {info.full_name}."
+        return SayParams(text=text)
 
     return words
 

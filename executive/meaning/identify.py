@@ -197,7 +197,7 @@ class Scene:
         by_id = {info.id: info for info in self.knowledge.map.objects}
         if query.name in by_id:
             return [by_id[query.name]]
-        settled = self._settled.get(_bare(query))
+        settled = self._settled.get(_bare(query)) or self._settled_and_held(query)
         if settled is not None:
             return [by_id[object_id] for object_id in settled]
         entities = self._entities
@@ -212,6 +212,14 @@ class Scene:
             text = f"{describe(query)!r} fits {len(found.candidates)} things"
             raise cannot("ambiguous", text, suggestion=found.question)
         return [by_id[object_id] for object_id in found.ids]
+
+    def _settled_and_held(self, query: goals.ObjectQuery) -> tuple[str, ...] | None:
+        """What a hand has by then, of the same description but for where it is.
+
+        "Take the mug beside the clock and put it in the kitchen on the worktop" says where it goes.
+        """
+        ids = self._settled.get(_bare(replace(query, at=None)))
+        return ids if ids and set(ids) <= set(self.held) else None
 
     def _by_where(self, query: goals.ObjectQuery, found: Grounding) -> Grounding:
         """Which of those that look as described stand where the description says.

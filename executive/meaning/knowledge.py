@@ -35,7 +35,9 @@ class Knowledge:
                 for place in others
             ],
             rooms=[Spot(name=place.name, synonyms=place.synonyms) for place in rooms],
-            people=[Someone(name=person.name) for person in self.map.people],
+            people=[
+                Someone(name=person.name, synonyms=person.synonyms) for person in self.map.people
+            ],
             categories=self.map.categories,
         )
 
@@ -104,6 +106,7 @@ class Knowledge:
         people = self.map.people
         wanted = (name or "operator").casefold()
         named = _first(p for p in people if wanted in (p.name.casefold(), p.id.casefold()))
+        named = named or _first(p for p in people if wanted in map(str.casefold, p.synonyms))
         if named is None and name is None and len(people) == 1:
             return people[0]
         return named

@@ -18,7 +18,9 @@ from executive.meaning import answers
 from executive.meaning.handlers import handling, moving, people, seeing, steps
 from executive.meaning.handlers.settling import counted, settle
 from executive.meaning.identify import Scene, Unsettled, cannot
+from executive.meaning.in_here import without_here
 from executive.meaning.knowledge import Knowledge
+from executive.meaning.staying import with_an_end
 from executive.meaning.stopovers import without_stopovers
 from executive.skills.pick import PickParams
 from executive.trees.parts import Branch, Errand, Kept, Part, Series, errands
@@ -35,7 +37,7 @@ def understand(asked: Iterable[goals.Goal], scene: Scene) -> Series:
     Raises:
         CannotMean: if one of them has no meaning here, or no skill does it.
     """
-    parts = sequence(tuple(asked), scene)
+    parts = sequence(with_an_end(without_here(asked)), scene)
     if not parts:
         raise cannot("invalid_goal", "there is nothing to do")
     task = Series(name="task", parts=(*parts, *last_look(parts, scene.knowledge)))
@@ -201,7 +203,7 @@ def _about(goal: goals.Goal, same: Collection[goals.ObjectQuery], info: ObjectIn
     }
     query = getattr(goal, "object", None)
     if isinstance(query, goals.ObjectQuery) and query in same:
-        slots["object"] = _named(query, info)
+        slots["object"] = goals.ObjectQuery(name=info.id)  # it was just seen where it is
     return msgspec.structs.replace(goal, **slots)
 
 
@@ -286,6 +288,7 @@ HANDLERS: dict[type[Any], Handler] = {
     goals.Meet: people.meet,
     goals.Say: people.say,
     goals.Count: seeing.count,
+    goals.Tell: seeing.tell,
     goals.LookAt: seeing.look_at,
     goals.Balance: moving.balance,
     goals.Wait: moving.wait,
@@ -307,7 +310,6 @@ _MISSING: dict[type[Any], str] = {
     goals.Close: "this robot cannot close things yet",
     goals.Switch: "this robot cannot switch things yet",
     goals.Answer: "this robot cannot answer questions yet",
-    goals.Tell: "this robot cannot find that out yet",
     goals.Pause: "there is nothing to pause before it has begun",
     goals.Resume: "there is nothing to go on with",
 }

@@ -98,12 +98,13 @@ PERSON_RADIUS_M = 0.25
 
 
 class PersonInfo(msgspec.Struct, frozen=True, kw_only=True):
-    """A person as the world file gives them."""
+    """A person as the world file gives them; `synonyms` are what else they are called."""
 
     id: str
     name: str
     X_WO: SE3
     radius_m: float = PERSON_RADIUS_M
+    synonyms: tuple[str, ...] = ()
 
 
 class WorldMap(Message, frozen=True, kw_only=True):

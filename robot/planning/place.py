@@ -10,10 +10,10 @@ from robot.failures import Failure, failure
 from robot.messages import Place, Shape
 from robot.model.handling import Gripping
 from robot.planning.floor import Floor
-from robot.planning.grasps import held_option
+from robot.planning.grasps import TIP_HEIGHT_M, held_option
 from robot.planning.handling import search
 from robot.planning.handling_problem import Choice, HandlingProblem
-from robot.planning.requests import ObjectPose, PlacePlan, PlaceRequest
+from robot.planning.requests import Held, ObjectPose, PlacePlan, PlaceRequest
 from robot.planning.robot_body import Body
 from robot.planning.solids import people_of, solids_of
 from robot.planning.stances import posture_of
@@ -24,6 +24,8 @@ SPOT_STEP_M = 0.05
 MAX_SPOTS = 16
 SHARE_PER_M = 1.5
 """Cost of a metre between a spot and where the robot can stand."""
+MOST_RAISED_M = 0.01
+"""A low thing is let go so far above its place at most, to keep the fingertips clear of it."""
 EDGE_M = 0.025
 """Between an object and the edge of what it is put on [m]."""
 
@@ -67,6 +69,7 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
             )
     names = {info.id: info.name for info in around.map.objects}
     yaws, gripping = _yaws(request), body.description.handy.gripping
+    spots = spots + np.array([0.0, 0.0, _raised_m(request.held, gripping)])
     problem = HandlingProblem(
         kind="place",
         object_id=request.held.id,
@@ -103,6 +106,20 @@ def _plan(body: Body, choice: Choice, request: PlaceRequest) -> PlacePlan:
         margin=choice.margin,
         over=choice.over(body),
     )
+
+
+def _raised_m(held: Held, gripping: Gripping) -> float:
+    """How far above its place a thing is let go, which the fingers hold by its foot.
+
+    They came as near to what it stood on as fingertips may, less what a hand is off: without this
+    there were no ways to put a flat thing down at all.
+    """
+    X_OG, shape = held.X_GO.inverse(), held.shape
+    R = X_OG.rotation()
+    tip_m = X_OG.p[2] - gripping.fingertip_m * max(0.0, -float(R[2, 0]))
+    tip_m -= gripping.finger_half_m * abs(float(R[2, 2]))
+    foot_m = shape.X_BodyShape.p[2] - 0.5 * shape.size_m[2]
+    return min(MOST_RAISED_M, max(0.0, foot_m + TIP_HEIGHT_M - tip_m))
 
 
 def _yaws(request: PlaceRequest) -> tuple[float, ...] | None:

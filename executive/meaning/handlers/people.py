@@ -53,11 +53,19 @@ def _towards(name: str | None, scene: Scene) -> dict[str, str]:
 def say(goal: goals.Say, scene: Scene) -> Part:
     """Say a text; to somebody who is known by name it is said to their face."""
     words = Errand(name=f"say {goal.what!r}", params=SayParams(text=goal.what))
-    if goal.to is None or goal.to.name is None:
+    before = to_their_face(goal.to, scene)
+    if goal.to is None or not before:
         return words
-    found = scene.person(goal.to)
+    return Series(name=f"tell {scene.person(goal.to).name}", parts=(*before, words))
+
+
+def to_their_face(person: goals.Person | None, scene: Scene) -> tuple[Part, ...]:
+    """Going up to somebody who is known by name, and looking at them, before they are told."""
+    if person is None or person.name is None:
+        return ()
+    found = scene.person(person)
     look = Errand(name=f"look at {found.name}", params=LookParams(person_id=found.id))
-    return Series(name=f"tell {found.name}", parts=(go_to_person(goal.to, scene), look, words))
+    return (go_to_person(person, scene), look)
 
 
 def greet(goal: goals.Greet, scene: Scene) -> Part:

@@ -6,6 +6,7 @@ import math
 
 from executive.meaning import answers
 from executive.meaning.handlers.moving import go_to_person
+from executive.meaning.handlers.people import to_their_face
 from executive.meaning.handlers.settling import counted, where_words
 from executive.meaning.handlers.steps import (
     about,
@@ -27,6 +28,7 @@ from intents import goals
 from robot.messages import ObjectInfo
 
 AROUND, BEHIND = "around", "behind"
+LOCATION = "location"
 _SIDES: dict[str, Side] = {side: side for side in SIDES}
 
 
@@ -80,8 +82,24 @@ def find(goal: goals.Find, scene: Scene) -> Part:
     return Series(name=f"find {found.name}", parts=(go_to_person(goal.person, scene), look))
 
 
+def tell(goal: goals.Tell, scene: Scene) -> Part:
+    """Find a thing, then say where it is, to somebody's face if to whom.
+
+    Raises:
+        CannotMean: something else is to be found out.
+    """
+    if goal.object is None or goal.property != LOCATION:
+        raise cannot("unsupported", "this robot cannot find that out yet")
+    info = scene.object(goal.object)
+    where = Errand(
+        name=f"say where {info.full_name} is", params=answers.whereabouts(info, scene.knowledge)
+    )
+    parts = (search(info, goal.object, scene), *to_their_face(goal.to, scene), where)
+    return Series(name=f"tell where {info.full_name} is", parts=parts)
+
+
 def count(goal: goals.Count, scene: Scene) -> Part:
-    """Look wherever it was said, then say how many there are."""
+    """Look wherever it was said, then say how many there are, to somebody's face if to whom."""
     query = goal.object
     if query is None:
         raise cannot("unsupported", "this robot cannot count people yet")
@@ -98,8 +116,13 @@ def count(goal: goals.Count, scene: Scene) -> Part:
         ids = frozenset(info.id for info in scene.fitting(query))
         places = to_look_over(scene.places(query.at), scene)
         looks = inspect(f"look over the {query.at}", query.at, scene)
-        tell = answers.count(ids, places, noun=noun, where=f" {_where(query, scene)}")
-    return Series(name=name, parts=(*looks, Errand(name="say how many", params=tell)))
+        if len(places) > 1:  # what is higher than the eyes hides nothing of the rest
+            looks = tuple(tolerant(look, ["place_not_seen"]) for look in looks)
+        tell = answers.count(
+            ids, places, noun=noun, where=f" {_where(query, scene)}", of=scene.knowledge.map
+        )
+    told = to_their_face(goal.to, scene)
+    return Series(name=name, parts=(*looks, *told, Errand(name="say how many", params=tell)))
 
 
 def _look_over_the_room(scene: Scene) -> Part:

@@ -90,8 +90,8 @@ def visit(place: Place) -> Errand:
     return Errand(name=f"look over the {place.name}", params=params)
 
 
-def tolerant(part: Part) -> Part:
-    """A look that may come to nothing: the next one goes on."""
+def tolerant(part: Part, codes: Iterable[str] = PASSED_OVER) -> Part:
+    """A look that may come to nothing, for one of these reasons: the next one goes on."""
     nothing = Series(name="go on", parts=())
-    handlers = tuple((code, nothing) for code in PASSED_OVER)
+    handlers = tuple((code, nothing) for code in codes)
     return OnFail(name=part.name, part=part, handlers=handlers)

@@ -4,7 +4,7 @@ from intents.english.clauses.polar import BE, read_on, skip_being, yes_or_no
 from intents.english.clauses.self_talk import about_robot
 from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers, weight_at
 from intents.english.phrases.phrase import Locative, NounPhrase
-from intents.english.phrases.referents import Scope, is_person, sought, to_object, to_person
+from intents.english.phrases.referents import ME, Scope, is_person, sought, to_object, to_person
 from intents.english.reading import Found
 from intents.english.trouble import Unclear
 from intents.english.words import lexicon
@@ -25,7 +25,7 @@ def question(
     return (
         about_robot(text, at)
         or _how_many(text, at, scope, to)
-        or _where(text, at, scope)
+        or _where(text, at, scope, to)
         or _doing(text, at, scope, to)
         or _property(text, at, scope, to)
         or _how(text, at, scope, to)
@@ -108,8 +108,8 @@ _LEFT = lexicon.phrases(
 )
 
 
-def _where(text: Text, at: int, scope: Scope) -> Found | None:
-    """Where is the cup? Tell me where the cup is."""
+def _where(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
+    """Where is the cup? Tell me where the cup is; tell Ada where it is."""
     if text.word(at) != "where":
         return None
     left = text.phrase_end(_LEFT, at + 1)
@@ -118,6 +118,8 @@ def _where(text: Text, at: int, scope: Scope) -> Found | None:
         return None
     phrase.end = skip_being(text, phrase.end, _GONE)
     end = read_on(text, phrase)
+    if to not in (None, ME) and not is_person(phrase, scope):
+        return [_tell(phrase, "location", scope, to)], end
     return [sought(phrase, scope, spots=True)], end
 
 

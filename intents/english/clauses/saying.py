@@ -363,7 +363,8 @@ def describe(text: Text, at: int, scope: Scope) -> Found:
 _RESULT = lexicon.phrases(
     "what they are,what it is,what are they,what is it,which they are,what that is,which ones,"
     "the number,the result,the total,what the total is,the answer,how many,them for me,them,it,"
-    "the results,them to me,what you found,what you find,what you see"
+    "the results,them to me,what you found,what you find,what you see,"
+    "how many there are,how many you see,how many you found"
 )
 
 

@@ -19,6 +19,7 @@ from intents.goals import (
     OPERATOR,
     Balance,
     Bring,
+    Find,
     ForEach,
     Give,
     Goal,
@@ -27,6 +28,7 @@ from intents.goals import (
     Person,
     Pick,
     Place,
+    Tell,
     Wait,
 )
 
@@ -403,20 +405,35 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
     spot = spot or _home(clause, scope)
     down = clause.sense == "drop" or "down" in clause.particles()
     if spot is None and clause.verb == "leave":
-        raise NotUnderstood("All right, I leave it as it is")
+        return _left_there(slots, scope)
     if spot is None and not down:
         raise Unclear("Where shall I put it?" if len(objects) == 1 else "Where shall I put them?")
     slots.done()
     return [_each(o, lambda q: put_at(q, spot)) for o in objects]
 
 
+def _left_there(slots: Slots, scope: Scope) -> list[Goal]:
+    """Find the cup, *but leave it there*: nothing more; alone it is nothing at all.
+
+    Raises:
+        NotUnderstood: Nothing else was asked for.
+    """
+    if not isinstance(scope.last, Find | Tell):
+        raise NotUnderstood("All right, I leave it as it is")
+    slots.done()
+    return []
+
+
 def _home(clause: Clause, scope: Scope) -> Target | None:
     """Put it away, *it lives in the drawer*: where it belongs, told behind the order."""
     text, at = clause.text, clause.end
     at += text.word(at) in (COMMA, FULL_STOP)
-    if at >= len(text) or text.word(at) not in _IT or text.word(at + 1) not in _LIVES:
+    if at >= len(text) or text.word(at) not in _IT:
         return None
-    complements, _ = read_complements(text, at + 2)
+    at += 1 + (text.word(at + 1) in ("all", "both"))  # they all belong in the box
+    if text.word(at) not in _LIVES:
+        return None
+    complements, _ = read_complements(text, at + 1)
     return destination(Slots(dataclasses.replace(clause, complements=complements), scope))
 
 

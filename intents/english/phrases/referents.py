@@ -217,9 +217,18 @@ def _object_name(phrase: NounPhrase, scope: Scope, spots: bool) -> tuple[str, st
     if phrase.noun == "unknown" or not names:
         raise _unknown("object", phrase, scope, _OBJECTS)
     if len(names) > 1 and not phrase.exact:
+        kind = _kind(names)
+        if kind and _where(phrase, scope)[1] is not None:
+            return kind, ""  # which jam it is that is next to the milk is seen there
         raise Unclear(f"Which {phrase.said}, {_the(names)}?", tuple(names), phrase.said)
     name = phrase.name("object", *(_SPOTS if spots else ()))
     return (name, "") if name else ("", phrase.name("category"))
+
+
+def _kind(names: list[str]) -> str:
+    """What names that differ have in common: "jam", of the strawberry jam and the plum jam."""
+    last = {name.rpartition(" ")[2] for name in names}
+    return last.pop() if len(last) == 1 else ""
 
 
 def to_person(phrase: NounPhrase, scope: Scope) -> Person:

@@ -1,7 +1,8 @@
 """What is told where it is first, told in the usual order: "on the left of the rack is a cap".
 
 A noun knows what to make of all that is said behind it, on which side something is and under what;
-so "under the bench there is a box" is read as "there is a box under the bench".
+so "under the bench there is a box" is read as "there is a box under the bench". What somebody left
+is there: "if somebody left a cap in the hall".
 """
 
 from collections.abc import Sequence
@@ -16,6 +17,9 @@ _ENDS = words("that which who whose with")
 """What says more of a thing, behind where it is."""
 _IS = words("is are")
 _SOME = words("a an some one two three four five six several another")
+_WHETHER, _SOMEBODY = words("if whether"), words("somebody someone anybody anyone")
+_HAS, _LEFT = words("has"), words("left forgot forgotten")
+_ANY = words("a an any some")
 _SIDES = ("leftmost", "rightmost", "highest", "lowest")
 _LONGEST_START, _LONGEST_PLACE = 6, 10
 
@@ -38,6 +42,19 @@ def uninverted(tokens: list[Token]) -> list[Token]:
         front, thing = tokens[begin:stop], tokens[first:end]
         tokens = [*tokens[:begin], *is_there, *thing, *front, *tokens[end:]]
         said = [token.text for token in tokens]
+    return tokens
+
+
+def left_behind(tokens: list[Token]) -> list[Token]:
+    """The tokens with "if there is a mug" for *if somebody left a mug*."""
+    said = [token.text for token in tokens]
+    for at in range(len(said) - 4, -1, -1):
+        has = said[at + 2] in _HAS
+        left, some = at + 2 + has, at + 3 + has
+        somebody = said[at] in _WHETHER and said[at + 1] in _SOMEBODY
+        if somebody and said[left] in _LEFT and some < len(said) and said[some] in _ANY:
+            tokens = [*tokens[: at + 1], Token("there", ""), Token("is", ""), *tokens[some:]]
+            said = [token.text for token in tokens]
     return tokens
 
 

@@ -10,7 +10,7 @@ from intents.english.words.asking import plainly_asked
 from intents.english.words.courtesy import ADDRESSES, courtesy_end
 from intents.english.words.dialects import in_standard_words
 from intents.english.words.disfluency import fluent, unrepeated
-from intents.english.words.existentials import uninverted
+from intents.english.words.existentials import left_behind, uninverted
 from intents.english.words.homophones import as_meant
 from intents.english.words.learners import in_english_order
 from intents.english.words.lexer import COMMA, DASHES, FULL_STOP, QUOTE, Token, tokenize
@@ -154,7 +154,7 @@ class Text:
         plain = singled_out(_without_fillers(ordered, self.index), self.index)
         plain = _unfinished(unrepeated(conditional_questions(plain, self.index)))
         plain = _colloquial(in_standard_words(plain, self.index))
-        self.tokens: list[Token] = uninverted(plain)
+        self.tokens: list[Token] = uninverted(left_behind(plain))
         self.words: list[str] = [t.text for t in self.tokens]
         self._matches: dict[int, Match | None] = {}
         self._before_nouns = DETERMINERS | ALL | NUMBER_WORDS | {"no"} | set(self.index.colors)

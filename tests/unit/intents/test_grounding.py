@@ -80,3 +80,22 @@ def test_the_order_of_the_world_does_not_matter(world: list[Entity], color: str)
     found = ground(ObjectQuery(name="cup", color=color), world)
     assert isinstance(found, Grounded)
     assert found.id == {"red": "c1", "blue": "c2"}[color]
+
+
+STRAWBERRY, PLUM = Entity(id="j1", name="strawberry jam"), Entity(id="j2", name="plum jam")
+
+
+def test_what_names_have_in_common_means_all_of_them() -> None:
+    found = ground(ObjectQuery(name="jam"), (*HOME, STRAWBERRY, PLUM))
+    assert isinstance(found, Ambiguous)
+    assert found.candidates == ("j1", "j2")
+    assert ground(ObjectQuery(name="jam"), (*HOME, PLUM)) == Grounded("j2", ("j2",))
+
+
+def test_a_name_means_nothing_longer_where_something_is_called_so() -> None:
+    jam = Entity(id="j3", name="jam")
+    assert ground(ObjectQuery(name="jam"), (STRAWBERRY, PLUM, jam)) == Grounded("j3", ("j3",))
+
+
+def test_an_id_means_what_has_it() -> None:
+    assert ground(ObjectQuery(name="c2", at="shelf"), HOME) == Grounded("c2", ("c2",))

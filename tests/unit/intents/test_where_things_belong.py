@@ -13,6 +13,20 @@ from tests.unit.intents.hotel_words import assert_means_the_same, heard
         ("put the scarf back, it belongs in the wardrobe", "put the scarf in the wardrobe"),
         ("a peach for Hans, two for Olga", "bring a peach to Hans, then bring two peaches to Olga"),
         ("bring a cola to Olga and three to me", "bring a cola to Olga, then bring me three colas"),
+        ("find the torch, but leave it there", "find the torch"),
+        ("see if somebody left a cap in the spa", "see if there is a cap in the spa"),
+        (
+            "if someone has left a cap in the spa, bring it to me",
+            "if there is a cap in the spa, bring it to me",
+        ),
+        (
+            "put the torches away, they all belong in the wardrobe",
+            "put the torches in the wardrobe",
+        ),
+        (
+            "count the saucers on the bar and tell Olga how many there are",
+            "count the saucers on the bar and tell Olga how many",
+        ),
         ("close the desk lamp", "switch the desk lamp off"),
         ("shut the heater up", "switch the heater off"),
         ("open the desk lamp", "switch the desk lamp on"),

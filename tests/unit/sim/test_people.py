@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from robot.model import description
+from robot.se3 import SE3
 from sim import world
 from sim.grip import PULL_N, Grip
 from sim.people import AGAIN_S, wish_in
@@ -18,6 +19,7 @@ from sim.standing_room import (
     BACK_M,
     LANE_M,
     ROBOT_M,
+    WALKING_M,
     WIDE_LANE_M,
     Around,
     in_the_way,
@@ -242,3 +244,26 @@ def test_the_same_seed_gives_the_same_person():
         return [m.stamp_s for m in let_pass(plant, 3.0)]
 
     assert told() == told()
+
+
+@pytest.mark.parametrize("leaves", [True, False])
+def test_nobody_walks_into_a_robot_that_walks_on_as_they_make_room(leaves: bool):
+    plant = bench(behind_m=0.7)
+    plant.hear("please step back from me")
+    let_pass(plant, 1.3)
+    began = plant.where("person/anna")
+    let_pass(plant, 0.3)
+    at = plant.where("person/anna")
+    way = [at.p[i] - began.p[i] for i in range(2)]
+    there = [at.p[i] + 0.95 * way[i] / math.hypot(*way) for i in range(2)]
+    plant.stand(SE3.from_xy_yaw(there[0], there[1], 0.0))
+    nearest_m = math.inf
+    for k in range(30):
+        let_pass(plant, 0.1)
+        apart_m = math.dist(plant.where("person/anna").p[:2], plant.oracle.X_WB().p[:2])
+        nearest_m = min(nearest_m, apart_m)
+        if leaves and k == 15:
+            plant.stand(SE3.from_xy_yaw(1.0, -1.5, 0.0))
+    assert nearest_m > WALKING_M - 0.1  # the robot slumps a little meanwhile
+    moved_m = math.dist(plant.where("person/anna").p[:2], began.p[:2])
+    assert (moved_m > 0.6) == leaves

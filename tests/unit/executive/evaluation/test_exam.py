@@ -61,6 +61,19 @@ def test_a_sentence_that_is_not_understood_is_a_result(tmp_path):
     assert (record.ok, record.done, record.code) == (False, False, "refusal")
 
 
+@pytest.mark.parametrize(
+    ("say", "refused"),
+    [("frobnicate the cup", True), ("bring me the unicorn", True), ("wait one second", False)],
+)
+def test_a_wish_that_is_to_be_refused_is_done_by_refusing_it(tmp_path, say, refused):
+    task = f'kind: refuse, say: "{say}", or_code: refused, truth: [{{not_moved: red_cup}}]'
+    (case,) = read(tmp_path, task)
+    (run,) = campaign.runs((case,), seeds=1, without_too=False, robot="")
+    record = perform(run, Simulation())
+    assert record.ok == refused
+    assert record.false != refused
+
+
 def test_kinds_of_several_errands_have_more_time(tmp_path):
     short, long, own = read(
         tmp_path, TASK, TASK.replace("fetch", "all"), f"{TASK}, limit_s: 60, person_s: 20"

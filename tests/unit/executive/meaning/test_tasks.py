@@ -154,6 +154,45 @@ def test_counting_looks_over_all_of_the_place_first():
     assert say.name == "say how many"
 
 
+def test_who_is_to_be_told_how_many_is_gone_to_first():
+    assert steps("count the cups on the table and let Ann know") == [
+        "look over the table",
+        "go to Ann",
+        "look at Ann",
+        "say how many",
+    ]
+    assert steps("tell me how many cups are on the table") == [
+        "look over the table",
+        "say how many",
+    ]
+
+
+def test_where_a_thing_is_is_told_to_who_is_to_know():
+    assert steps("tell Ann where the bottle is") == [
+        "find the green bottle",
+        "go to Ann",
+        "look at Ann",
+        "say where the green bottle is",
+    ]
+    outcome = request("tell Ann where the bottle is", WHERE)
+    assert isinstance(outcome, Understood)
+    *_, say = errands(outcome.task)
+    assert callable(say.params)
+    told = [
+        say.params(board).text
+        for board in (
+            board_with(bottle=(1.8, 0.2, 0.75)),
+            board_with(bottle=(1.8, 0.2, 0.75), held={"left": "bottle"}),
+            board_with(),
+        )
+    ]
+    assert told == [
+        "The green bottle is on the table in the kitchen.",
+        "The green bottle is in my hand.",
+        "I do not know where the green bottle is.",
+    ]
+
+
 def test_several_things_are_fetched_one_after_the_other():
     assert steps("bring all cups to the table") == [
         "find the red cup",

@@ -434,9 +434,39 @@ def test_what_was_taken_and_is_not_held_is_named():
     assert part.gone(board(left="red"), {}, {"red"}) == []
 
 
+def test_a_count_in_a_room_says_what_could_not_be_seen():
+    look, tell = understood("how many boxes are there in the kitchen?").task.parts[0].parts
+    assert dict(look.handlers).keys() == {"place_not_seen"}  # the top of the fridge, say
+    told = tell.params(board()).text
+    assert told.startswith("I see 0 boxes in the kitchen. I have not seen all of the ")
+
+
+def test_what_a_condition_found_is_taken_from_where_it_is_said_to_be():
+    text = "if there is a mug on the table, put it on the counter"
+    branch = parts(text, Branch)[0]
+    taken = [
+        one.params.object_id for one in errands(branch.then) if hasattr(one.params, "object_id")
+    ]
+    assert set(taken) == {"red"}
+    assert not [part for _, part in walk(branch.then) if isinstance(part, Settle)]
+
+
 def test_what_is_counted_is_said_in_the_worlds_own_plural():
     *_, tell = errands(understood("how many boxes are there on the counter?").task)
     assert isinstance(tell, Errand)
     assert callable(tell.params)
     assert tell.params(board()).text == "I see 0 boxes on the counter."
     assert tell.params(board(tea=(0.0, 2.5))).text == "I see 1 box on the counter."
+
+
+def test_what_was_taken_from_beside_something_is_put_where_it_goes():
+    """The place that it goes to is said with it: "put it in the kitchen on the table"."""
+    beside = goals.Relation(how="near", of=goals.ObjectQuery(name="tea box"))
+    mug = goals.ObjectQuery(name="mug", relation=beside)
+    put = goals.Place(object=msgspec.structs.replace(mug, at="kitchen"), on="table")
+    outcome = meant("", (goals.Pick(object=mug), put), WHERE)
+    assert isinstance(outcome, Understood)
+    (settle,) = [part for _, part in walk(outcome.task) if isinstance(part, Settle)]
+    assert isinstance(settle.then(("blue",)), Part)
+    done = [type(one.params) for one in errands(settle.then(("blue",)))]
+    assert done == [PickParams, PlaceParams]

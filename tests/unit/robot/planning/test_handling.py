@@ -142,6 +142,23 @@ def test_what_lies_flat_on_the_table(solver: Solver, shape: Shape) -> None:
     assert plan.margin > 0.3
 
 
+@pytest.mark.parametrize("lower_m", [0.0, 0.004, 0.008])
+def test_what_lies_flat_is_put_down_though_the_hand_was_lower_than_meant(
+    solver: Solver, lower_m: float
+) -> None:
+    """A hand is a few millimetres off, and its fingertips had eight above the table."""
+    flat = Shape(kind="box", size_m=(0.07, 0.14, 0.03))
+    thing = on_table(-0.1, 0.2, shape=flat)
+    taken = pick(solver, surroundings(thing))
+    assert isinstance(taken, PickPlan)
+    higher = SE3((0.0, 0.0, lower_m)) @ thing.X_WO  # than it is, seen from that hand
+    held = Held(id="cup", shape=flat, X_GO=taken.X_WG_grasp.inverse() @ higher)
+    plan = place(solver, TABLE, surroundings(), held=held, side=taken.side)
+    assert isinstance(plan, PlacePlan), plan
+    foot_m = plan.X_WO.p[2] - 0.5 * flat.size_m[2]
+    assert 0.0 <= foot_m - TABLE.X_WP.p[2] <= 0.011
+
+
 def test_hands_keep_away_from_who_stands_beside(solver: Solver) -> None:
     around = surroundings(on_table(-0.1, 0.0))
     alone = pick(solver, around)
