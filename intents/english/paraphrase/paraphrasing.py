@@ -81,7 +81,7 @@ class Heard:
         self._read = self._net.read(ids, sorts)
 
     def paraphrase(self) -> Paraphrase:
-        """What the network says instead of it; that it has to be asked where it is lost for words."""
+        """What the network says instead of it; that it has to be asked if it is lost for words."""
         writing, known = self._net.begin(self._read, self._heads), len(self._net.words)
         told, sure, last = list[int](), 0.0, BEGIN
         while len(told) < self._net.longest_plain:

@@ -61,7 +61,9 @@ def _meant(said: list[str], at: int, index: NameIndex) -> str:
         "four": "for" if after in _WHOM and last not in _SIGNS else "",
         "two": "to" if after in _WHOM and last not in _SIGNS else "",
         "than": "then" if after in FIRST_WORDS and last in (*_SIGNS, "and") else "",
-        "theirs": "there is" if last in ("if", "whether", "and", *_SIGNS) and after in _SOME else "",
+        "theirs": "there is"
+        if last in ("if", "whether", "and", *_SIGNS) and after in _SOME
+        else "",
         "its": "it is" if after in _GOES_ON else "",
         "of": "off" if _is_off(said, at, index) or _is_taken_off(said, at, index) else "",
     }

@@ -57,7 +57,6 @@ def test_no_text_takes_long(text: str) -> None:
     assert in_paces(lambda: is_stop(text)) < 40  # what grows with the square takes thousands
 
 
-
 HIDDEN = (
     "st\u200bop", "s\u00adtop", "st\u200dop", "\ufeffstop", "s\u2060t\u2061o\u2062p", "st\u202eop",
     "st\ufe0fop", "st\u034fop", "st\u3164op", "s\u0323\u0307t\u20ddop", "st\0op", "st\x9bop",
