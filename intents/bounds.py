@@ -49,6 +49,14 @@ _AMOUNT = re.compile(
     rf".*?\bthan\b.*?(?<![a-z])(?:{_UNIT})\b(?:\s*(?:/|per|an?)\s*(?:{_UNIT})\b)?", re.IGNORECASE
 )
 """A bound up to its amount."""
+_OF_ONESELF = re.compile(
+    r"\b(?:i|he|she|we|they)\s+(?:really\s+|just\s+)?(?:can(?:no|['’])?t|could(?:n['’]t| not)|"
+    r"must(?:n['’]t| not)|may not|should(?:n['’]t| not)|am not (?:allowed|supposed) to)\s+"
+    r"(?:carry|lift|eat|drink|walk|reach|bear|climb|wear|sit|stand|hold|pick up|manage|see|hear|go|"
+    r"sleep|work|run)\b[^,;:!?—–.]*$",
+    re.IGNORECASE,
+)
+"""I mustn't carry anything *heavier than a book*: what who speaks cannot do."""
 _LINK = re.compile(r"[\s,;:–—-]*\b(?:but|and|though|only)?\s*$", re.IGNORECASE)
 """What leads on to a bound."""
 _TELLING = (Answer, Count, If, Report, Say, Tell)
@@ -67,6 +75,8 @@ def unkept(text: str, goals: Iterable[Goal]) -> str:
     if span:
         return span
     for found in _BOUNDS.finditer(text):
+        if _OF_ONESELF.search(text[: found.start()]):
+            continue
         said = found.group().strip(" .\n\t")
         kind = found.lastgroup
         if kind == "choice":
@@ -88,7 +98,9 @@ def loosened(text: str) -> tuple[str, str]:
 
     What comes behind the amount is left: "go no closer than 1 m *to the table*".
     """
-    found = next((one for one in _BOUNDS.finditer(text) if one.lastgroup == "degree"), None)
+    degrees = (one for one in _BOUNDS.finditer(text) if one.lastgroup == "degree")
+    of_order = (one for one in degrees if not _OF_ONESELF.search(text[: one.start()]))
+    found = next(of_order, None)
     if found is None:
         return "", ""
     said = found.group().strip(" .\n\t")

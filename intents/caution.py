@@ -92,8 +92,8 @@ _TALKS = re.compile(
     r"(?:in which|where|about|how)\b|\b(?:i|she|he|we) (?:dreamt|dreamed)\b|"
     r"\bonly (?:a|an|some) (?:\w+ )?(?:fool|idiot|madman|moron|lunatic)s?\b|"
     r"\b(?:robots|people|machines|those|whoever|anyone|anybody|everyone) (?:that|which|who)\b|"
-    r"\b(?:hypothetically|imagine|suppose|pretend|the (?:word|phrase|sentence|order|command|words))"
-    r"\b.*\b(?:you|means?|is)\b"
+    r"\b(?:hypothetically|imagine(?!\W*[!.,])|suppose|pretend|"
+    r"the (?:word|phrase|sentence|order|command|words))\b.*\b(?:you|means?|is)\b"
 )
 """What only speaks of an order. How an order is passed on ("Mum says bring it") is none."""
 _CONTRACTED = re.compile(r"\b(do|does|did|should|must|would|could|need|is|are|was|have|has|ought|"
@@ -255,7 +255,8 @@ def _slips(text: str, names: NameIndex) -> Iterator[str]:
         if not known and OSA.distance(word, "not") == 1:
             yield found.group()
     apart = [one.group() for one in _APART.finditer(plain) if not _CONTRACTED.match(one.group())]
-    for word in (*_WORD.findall(plain), *(re.sub(r"\W", "", one) for one in apart)):
+    whole = re.sub(r"\b\w+n't\b", " ", plain)  # mustn't: that is read
+    for word in (*_WORD.findall(whole), *(re.sub(r"\W", "", one) for one in apart)):
         if len(word) < 3 or word in KNOWN_WORDS or word in _NONE or word in _LIKE:
             continue
         near = any(abs(len(word) - len(no)) < 2 and OSA.distance(word, no) == 1 for no in _LIKE)

@@ -30,7 +30,7 @@ from intents.english.trouble import (
     listing,
 )
 from intents.english.words import lexicon
-from intents.english.words.lexer import FULL_STOP
+from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
@@ -168,7 +168,7 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
         return Understood((Greet(person=ME),))
     for at in range(1, len(text)):
         mine = text.word(at) == "myself" and text.word(at - 1) not in ("for", "to")
-        if mine and not _ordered_after(text, at + 1):
+        if mine and not (_ordered_after(text, at + 1) or _cannot(text, at)):
             raise Unasked("That is for you to do, as I hear it")
     _refuse_unasked(text)
     sentence = Sentence(text, scope, RULES, history)
@@ -195,6 +195,13 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
         raise Partly(differs, tuple(goals))
     remarks += (remark,) if remark else ()
     return Understood(tuple(goals), tuple(sentence.notes.trace), remarks)
+
+
+def _cannot(text: Text, at: int) -> bool:
+    """Turn it off, I *can't* hear myself think: what one cannot do is a reason to ask for more."""
+    begin = max((n + 1 for n in range(at) if text.word(n) in (COMMA, FULL_STOP)), default=0)
+    said = text.words[begin:at]
+    return said[:1] in (["i"], ["we"]) and said[1:3] in (["can", "not"], ["could", "not"])
 
 
 def _ordered_after(text: Text, at: int) -> bool:

@@ -51,6 +51,12 @@ _MOST_REWORDED = 2
 """So many remainders without whole clauses are said in plain words: each takes a millisecond."""
 LONGEST = 60
 """Longer than that nobody talks beside an order that the grammar reads."""
+_OWN_DOING = re.compile(
+    r"(?:and |so |then )?(?:i|we) (?:go|walk|come|run|turn|step|open|close|put|bring|take|fetch|"
+    r"carry|follow|stand|wait|wave|lift|switch)\b[^,;:.!?—–]*[.!]?",
+    re.IGNORECASE,
+)
+"""I walk to the door: who speaks does that, and no other words make an order of it."""
 _BETWEEN = re.compile(r"[,;:—–(]|[.!?…].*\w")
 
 
@@ -163,6 +169,8 @@ def _instead(text: str, best: Look, likely: float, first: Attempt) -> Attempt:
 
 def is_settled(text: str, first: Attempt) -> bool:
     """Whether there is nothing to be gained by other words than those that were said."""
+    if not first.goals and _OWN_DOING.fullmatch(text.strip()):
+        return True
     if first.error is not None:
         return isinstance(first.error, Unasked | Offered | Unpromised)
     whole = len(text.split()) > LONGEST or is_plain(text)

@@ -6,8 +6,9 @@ acted on, or whether neither is, was learnt (:mod:`intents.english.learnt.choice
 """
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
+from intents.english.faithfulness import numbers
 from intents.english.learnt.choice import Both, Kind, Name, Side, choice, lost
 from intents.english.learnt.field import LEARNT, Fields
 from intents.english.paraphrase.paraphrasing import ASK, NOTHING, Heard
@@ -20,6 +21,7 @@ from intents.english.trouble import (
 )
 from intents.english.words import lexicon
 from intents.english.words.limits import CONDITIONS, MEASURES
+from intents.english.words.measures import number
 from intents.english.words.names import NameIndex
 from intents.goals import Cancel, Goal, LookAt, Pause, Report, Say, Stop, Wait
 from intents.outcomes import Goals, Outcome, Question, Refusal
@@ -44,6 +46,9 @@ _BY_THE_WAY = (Wait, Stop, Cancel, Pause, Say, Report, LookAt)
 _RELATIVE = lexicon.words("that which who is")
 """Behind one of these "not" says which is meant: "all that is not red"."""
 _WORDS = re.compile(r"[\w']+")
+_MEANT = re.compile(r"\bI meant? (?:the|a|an|my|your|our|his|her|this|that)\s+\w", re.IGNORECASE)
+"""I mean *the cellar*: what takes another's place, be it known or not."""
+_SEVERAL = 2
 _BESIDE = re.compile(rf",\s*(?:{'|'.join(sorted(lexicon.DETERMINERS))})\s+(\w+)\s*,")
 """Something more that is meant: "the kettle, the cosy, ..."."""
 
@@ -80,6 +85,7 @@ def third_look(
     offers = isinstance(before.outcome, Question) and before.outcome.goals
     is_short = len(text.split()) <= SHORT and said and offers == said.goals
     lacks = isinstance(before.error, Idle) or lost(both) or is_short or _measures(text)
+    lacks = lacks or (said is not None and _loses_count(text, index, said.goals))
     if said and likely >= SURE and not lacks:
         return _taken(said, both)
     if said and likely >= LIKELY and not offers:
@@ -129,7 +135,12 @@ def looked(
 
 def _is_open(text: str, before: Attempt) -> bool:
     """Whether other words might be read better than those that were said."""
-    if is_plain(text) or len(text.split()) > LONGEST or _limits(text):
+    if (
+        (not before.goals and is_settled(text, before))
+        or is_plain(text)
+        or len(text.split()) > LONGEST
+        or _limits(text)
+    ):
         return False
     if isinstance(before.error, Unasked | Offered | Unpromised):
         return False
@@ -146,6 +157,20 @@ def _measures(text: str) -> bool:
     return not MEASURES.isdisjoint(_WORDS.findall(text.lower()))
 
 
+def _loses_count(text: str, index: NameIndex, goals: Sequence[Goal]) -> bool:
+    """Whether it is said how many of a thing are meant, and no goal says that."""
+    words = _WORDS.findall(text.lower())
+    told = numbers(goals)
+    for at in range(len(words) - 1):
+        count = number(words, at)
+        if count is None or count.value < _SEVERAL or count.value in told:
+            continue
+        names = (index.match(words, n) for n in range(count.end, min(count.end + 2, len(words))))
+        if any(match is not None and match.of("object", "category") for match in names):
+            return True
+    return False
+
+
 def _is_by_the_way(goal: Goal) -> bool:
     """Whether somebody may have said that without asking for it: "hang on", not "wait 10 s"."""
     return isinstance(goal, _BY_THE_WAY) and not (isinstance(goal, Wait) and goal.duration_s)
@@ -154,7 +179,7 @@ def _is_by_the_way(goal: Goal) -> bool:
 def _limits(text: str) -> bool:
     """Whether words say when something is to be done, or what is not meant: "that isn't red"."""
     words = _WORDS.findall(text.lower().replace("’", "'"))
-    if CONDITIONS.intersection(words):
+    if CONDITIONS.intersection(words) or _MEANT.search(text):
         return True
     denied = [n for n, word in enumerate(words) if word == "not" or word.endswith("n't")]
     return any(n == 0 or words[n - 1] in _RELATIVE for n in denied)

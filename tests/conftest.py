@@ -12,6 +12,7 @@ from collections.abc import Generator
 import pytest
 from hypothesis import settings
 
+import executive  # noqa: F401  # before numpy: one thread for small matrices, as everywhere
 from tests.fakes.machine import Others
 
 # Repeatable, and patient with a slow machine: a deadline would fail a test for the machine's sake.

@@ -8,17 +8,13 @@ from intents.english.phrases.referents import Scope, to_object
 from intents.english.reading import Found, Sentence
 from intents.english.substitution import substitute
 from intents.english.words import lexicon
+from intents.english.words.excluding import excluding_end
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.verbs import verbs_at
 from intents.goals import ForEach, Goal, ObjectQuery
 
-_NOT = lexicon.phrases(
-    "not,but not,and not,only not,except,except for,apart from,other than,besides,excluding,"
-    "save for,aside from,with the exception of,not counting,leaving out,just not,anything but,"
-    "any but,all but,but for"
-)
 _BUT = ("but",)
-_LINKS = ("but", "and", "only", "though")
+_LINKS = ("but", "and", "only", "just", "though")
 
 
 _STAYS = lexicon.phrases(
@@ -42,6 +38,8 @@ def kept_out(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     about = next((query for goal in last if (query := _about(goal))), None)
     if phrase is None or about is None or phrase.noun not in ("name", "one") or phrase.is_person:
         return None
+    if kept and phrase.places and text.word(kept - 1) == "leave":
+        return _left_there(sentence, about, phrase, last)
     end = phrase.end if kept else text.phrase_end(_STAYS, phrase.end)
     there = text.phrase_end(_THERE, end) if end else None
     end = there or end
@@ -53,10 +51,32 @@ def kept_out(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     return [substitute(goal, about, without) for goal in last], end
 
 
+def _left_there(
+    sentence: Sentence, about: ObjectQuery, phrase: NounPhrase, last: list[Goal]
+) -> Found | None:
+    """Put all toys in the box, *leave the ball on the bed*: all but the ball, which stays there.
+
+    What is none of them is put there.
+    """
+    text, index = sentence.text, sentence.scope.index
+    closed = phrase.end >= len(text) or text.word(phrase.end) in (COMMA, FULL_STOP)
+    name = phrase.name("object")
+    one_of_them = phrase.noun == "one" or (
+        name and (name == about.name or index.is_of(name, about.category))
+    )
+    if not closed or not one_of_them:
+        return None
+    sentence.notes.passed.append((phrase.start, phrase.end))
+    if phrase.noun == "name":
+        phrase.places.clear()  # it is left wherever it is
+    without = narrowed(about, to_object(phrase, sentence.scope), phrase, sentence.scope)
+    return [substitute(goal, about, without) for goal in last], phrase.end
+
+
 def excluded(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     """Bring me a drink, *not the milk*; put all toys in the box *except the ball*."""
     text, scope = sentence.text, sentence.scope
-    start = text.phrase_end(_NOT, at)
+    start = excluding_end(text, at)
     if start is None and text.word(at - 1) in _BUT and any(map(_is_of_all, last)):
         start = at
     if start is None and text.word(at) == "only" and any(map(_is_of_all, last)):

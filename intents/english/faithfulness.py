@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple, cast
 
 from intents.english.words import lexicon
+from intents.english.words.excluding import is_excluded
 from intents.english.words.lexer import singular
 from intents.english.words.measures import (
     NUMBER_WORDS,
@@ -70,8 +71,6 @@ CARRYING = (
 """Words of closed classes that say something by themselves: what, how many, which, in what way."""
 _MARKS = frozenset(lexicon.COLORS) | frozenset(lexicon.SIZES)
 _WHICH = frozenset(("the", "that", "this", *_MARKS))
-_DENIES = frozenset(("not", "but", "except", "anything", "any"))
-"""Not *the green one*: which one is not meant has been taken account of."""
 _NO_SUPERLATIVES = lexicon.words(
     "best rest test nest vest chest guest forest request interest harvest honest modest west quest "
     "protest contest arrest invest suggest digest latest earliest dearest jest pest zest latest "
@@ -134,8 +133,8 @@ def _singling_out(text: Text, start: int, end: int) -> Iterator[int]:
     """
     ones = [n for n in range(start + 1, end) if text.word(n) in lexicon.ONES]
     first = next((n for n in ones if text.word(n - 1) in _WHICH), None)
-    if first is None or not _DENIES.isdisjoint(text.words[start:first]):
-        return
+    if first is None or is_excluded(text, start, first):
+        return  # not the green one: which one is not meant has been taken account of
     if text.word(first - 1) in _MARKS:
         yield first - 1
     for n in range(first + 1, end):

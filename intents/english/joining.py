@@ -110,6 +110,20 @@ def same_object(wanted: Goal, found: list[Goal]) -> bool:
     return one.name == other.name
 
 
+def sought_there(wanted: Goal, found: list[Goal]) -> Find | None:
+    """I cannot find Ada, *have a look in the hall*: she is to be looked for there."""
+    goal = found[0] if len(found) == 1 else None
+    if not isinstance(wanted, Find) or not isinstance(goal, GoTo | LookAt) or not goal.place:
+        return None
+    if replace(goal, place=None) != type(goal)():
+        return None
+    if wanted.person is not None and not wanted.person.at:
+        return replace(wanted, person=replace(wanted.person, at=goal.place))
+    if wanted.object is not None and not (wanted.object.at or wanted.object.relation):
+        return replace(wanted, object=replace(wanted.object, at=goal.place))
+    return None
+
+
 def as_wished(goal: Goal, wish: Goal) -> Goal:
     """The goal with where the wish said that the thing is; to fetch it is to bring it."""
     if isinstance(goal, Guide) and isinstance(wish, Guide):

@@ -65,8 +65,8 @@ RULES = Rules(
         time_clauses.not_until,
         # What an order is good for, before it is an order itself.
         remarks.aimed_at,
-        # Statements with a wish behind them, or a place to be noted: before a fronted thing and a
-        # verb are seen in "I put my comb on the bench, go and get it".
+        # Statements with a wish behind them, or a place to be noted: before a need or
+        # a verb is seen in "I put my comb on the bench, go and get it".
         needs.lost,
         needs.looked_for,
         remarks.left_somewhere,

@@ -6,7 +6,7 @@ from contextlib import suppress
 from intents.english.clauses.openings import otherwise_end, skip_openings
 from intents.english.clauses.statements import mention_phrase
 from intents.english.corrections import correction, taken_back
-from intents.english.joining import as_wished, instead, joined, or_else, same_object
+from intents.english.joining import as_wished, instead, joined, or_else, same_object, sought_there
 from intents.english.phrases.complements import connector_end
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.picked_out import picked_out
@@ -20,6 +20,7 @@ from intents.english.trouble import (
     Unfinished,
     Unread,
 )
+from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import base_form
@@ -40,6 +41,8 @@ from intents.goals import (
     each,
 )
 
+_LOOKS = lexicon.words("look check search have take peek try")
+"""How one is told where to look for what cannot be found."""
 _NAMED_HAND = re.compile(
     r"\b(with|using|use|in) (of |your |the )*(left|right|both|two|one) (of )?(your |the )?"
     r"(hand|arm|gripper)s?\b"
@@ -115,7 +118,10 @@ def _append(
         said: The words of the clause.
     """
     goals, scope = sentence.before, sentence.scope
-    if wish and same_object(wish[0], found[:1]):
+    if wish and opening[-1] in _LOOKS and (seen := sought_there(wish[0], found)):
+        found[:] = [seen]
+        goals.pop()
+    elif wish and same_object(wish[0], found[:1]):
         found[0] = as_wished(found[0], goals.pop())
     failing = opening[-1] == "if" and not isinstance(goals[-1] if goals else None, Find)
     if goals and found and (failing or "or" in opening[:-1]):

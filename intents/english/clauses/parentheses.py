@@ -79,7 +79,8 @@ COMMENTING = lexicon.words(
 )
 """Words in -ly that are no manner."""
 _IDIOMS = lexicon.phrases(
-    "truth be told,hand on heart,to be honest,to be fair,to be frank,cross my heart,"
+    "truth be told,hand on heart,imagine,just imagine,imagine that,"
+    "to be honest,to be fair,to be frank,cross my heart,"
     "believe it or not,long story short,no offence,no offense,fingers crossed,mark my words,"
     "so help me,between you and me,as it happens,come to think of it,needless to say,i must say,"
     "i dare say,i daresay,i say,i tell you,mind you,i ask you,i swear,you see,as you know,as usual,"

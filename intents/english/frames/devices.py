@@ -152,7 +152,11 @@ def switch(clause: Clause, scope: Scope) -> list[Goal]:
         raise Misfit("on or off?")
     if said is not None and "down" in particles and not _is_appliance(said.phrase):
         raise NotUnderstood(f"I cannot turn down “{said.phrase.said}”")
-    if clause.verb in ("light", "put") and said and not _is_appliance(said.phrase):
+    if (
+        clause.verb in ("light", "put", "put on", "put off")
+        and said
+        and not _is_appliance(said.phrase)
+    ):
         raise NotUnderstood(f"I cannot switch “{said.phrase.said}”")
     if said is None and not particles & {"on", "off"}:
         raise Misfit("switch what?")

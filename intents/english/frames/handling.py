@@ -122,7 +122,16 @@ def take(clause: Clause, scope: Scope) -> list[Goal]:
         return [_put_down(goal) for goal in bring(clause, scope)]
     if any(word.startswith("fetch") for word in clause.verb.split()) and not _is_moved_on(clause):
         return bring(clause, scope)
+    if _is_mine(clause) and not _is_moved_on(clause):
+        return bring(clause, scope)
     return pick(clause, scope)
+
+
+def _is_mine(clause: Clause) -> bool:
+    """Can you get *my* phone: who asks for their own things wants to have them."""
+    bare = [c for c in clause.complements if c.phrases and c.role == ""]
+    mine = bool(bare) and all(one.determiner == "my" for one in bare[0].phrases)
+    return mine and clause.verb.split()[-1] == "get"
 
 
 def _is_moved_on(clause: Clause) -> bool:

@@ -275,6 +275,9 @@ def _orders(heard: list[str]) -> bool:
 
 def _corrects(heard: list[str], index: NameIndex) -> bool:
     """Whether it may say what is meant instead: "I mean the radio", "or rather, the other bin"."""
+    anew = heard[2:3] != [] and heard[2] in lexicon.DETERMINERS
+    if heard[:2] in (["i", "mean"], ["i", "meant"]) and anew:
+        return True  # "I mean the cellar", which nobody may know
     marked = heard[:2] in (["i", "mean"], ["i", "meant"], ["or", "rather"], ["no", "wait"])
     marked = marked or heard[0] in ("no", "rather", "correction")
     return marked and any(index.match(heard, at) for at in range(1, min(len(heard), _SHORT)))

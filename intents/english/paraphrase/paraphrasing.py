@@ -12,6 +12,9 @@ from intents.english.words.names import NameIndex
 
 NOTHING, ASK = "nothing", "ask"
 """What is written of a sentence that asks for nothing, and of one that has to be asked about."""
+HOPELESS = 0.02
+"""What is less likely than that is not written to its end: nobody acts on it or asks about it."""
+_LOST = float(np.log(HOPELESS))
 _CLOSE = {"°", "'s"}
 """What stands right behind the word before it."""
 
@@ -78,7 +81,7 @@ class Heard:
         self._read = self._net.read(ids, sorts)
 
     def paraphrase(self) -> Paraphrase:
-        """What the network says instead of it."""
+        """What the network says instead of it; that it has to be asked if it is lost for words."""
         writing, known = self._net.begin(self._read, self._heads), len(self._net.words)
         told, sure, last = list[int](), 0.0, BEGIN
         while len(told) < self._net.longest_plain:
@@ -88,8 +91,16 @@ class Heard:
             if last == END:
                 break
             told.append(last)
+            if sure < _LOST or _goes_round(told):
+                return Paraphrase(ASK, float(np.exp(sure)))
         plain = [self.units[w - known].meant if w >= known else self._net.words[w] for w in told]
         return Paraphrase(joined(plain), float(np.exp(sure)))
+
+
+def _goes_round(told: Sequence[int]) -> bool:
+    """Whether the last few words are those before them again: nobody orders that way."""
+    lengths = range(2, len(told) // 2 + 1)
+    return any(told[-n:] == told[-2 * n : -n] for n in lengths)
 
 
 def joined(plain: Sequence[str]) -> str:

@@ -210,6 +210,8 @@ def gapped(sentence: Sentence, at: int) -> Found | None:
         return [], end
     if not told or not goes_on(sentence.text, end):
         return None
+    if said.at == said.first and (jotted := _jotted_away(sentence, at, complements, end)):
+        return jotted
     if "turn" in said.senses and _goes_back(sentence, at, complements):
         return framed(sentence, "go", "go", complements, first=at, end=end)
     kept = [(s, said.first) for s in said.senses if s not in SPEECH and s != "count"]
@@ -219,6 +221,22 @@ def gapped(sentence: Sentence, at: int) -> Found | None:
         return found
     _share(sentence, said, at, found[0])
     return _to_the_same(sentence, found[0]), found[1]
+
+
+def _jotted_away(
+    sentence: Sentence, at: int, complements: list[Complement], end: int
+) -> Found | None:
+    """Ball to Leo, then *milk in the fridge*: where it goes, for no verb was said."""
+    things = complements[0]
+    last = things.phrases[-1] if len(complements) == 1 and things.phrases else None
+    where = last.places[-1] if last is not None and last.places and not things.role else None
+    if last is None or where is None or where.how not in ("on", "in"):
+        return None
+    if last.determiner or not (where.of.name("place") and last.name("object", "category")):
+        return None
+    last.places.pop()
+    to = Complement(role="at", how=where.how, phrases=[where.of])
+    return framed(sentence, "put", "put", [things, to], first=at, end=end)
 
 
 def _goes_back(sentence: Sentence, at: int, complements: list[Complement]) -> bool:

@@ -108,7 +108,8 @@ def _placed_so(
     phrase = noun_phrase(text, start)
     if phrase is not None and is_person(phrase, sentence.scope):
         return _served(sentence, phrase)
-    if phrase is None or not phrase.name("object", "category"):
+    spoken_of = phrase is not None and phrase.said in ("it", "them") and how is _WISHED
+    if phrase is None or not (phrase.name("object", "category") or spoken_of):
         return None
     ends = text.phrase_end(how, phrase.end)
     where = _where(sentence, ends) if ends is not None else None

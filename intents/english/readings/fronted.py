@@ -25,6 +25,8 @@ _HANDLES = ("bring", "put", "take", "give", "pick", "drop", "collect")
 def fronted(sentence: Sentence, at: int) -> Found | None:
     """At the desk, find the cup; the red cup, bring it to me; on the table is a cup."""
     text, scope = sentence.text, sentence.scope
+    if text.word(at) in ("i", "we"):
+        return None  # I walk behind you: that is what who speaks does
     complements, end = read_complements(text, at)
     after = skip_openings(text, end)
     usable = bool(complements) and all(

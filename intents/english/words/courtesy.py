@@ -46,7 +46,7 @@ _FAMILIAR = lexicon.words(
     "love luv dear darling sweetheart honey hun mate pal buddy bro dude robot bot sir champ"
 )
 """What needs no comma before it at the end."""
-_ADDRESSED = lexicon.words("my me good old little dear you the clever young kind")
+_ADDRESSED = lexicon.words("my me good old little big wee dear you the clever young kind")
 _POLITELY_CALLED = lexicon.words("man lady fellow woman gentleman person people folks sir")
 """What the robot may be called behind "young", "good" or "dear"."""
 _CALLED = ADDRESSES | _ADDRESSED | _POLITELY_CALLED
@@ -70,7 +70,7 @@ _TAILS = lexicon.phrases(
     "there is a good chap,there is a good lad,there is a good girl,there is a good boy,"
     "there is a dear,there is a love,innit,eh,yeah,yes,okay,ok,alright,all right,right,no,hey,huh,"
     "you hear,do you hear,got it,understood,if you please,and thanks,and thank you,and that is it,"
-    "and that is all,that is all,that is it,for me please,would be great,would be lovely,"
+    "and that is all,that is all,that is it,would be great,would be lovely,"
     "would be nice,will do,asap,too please,apparently,obviously,seriously,and not just anywhere,"
     "not just anywhere,"
     "and nowhere else,and not anywhere else,or somebody,or whatever,or something,or so,"
@@ -162,16 +162,28 @@ def _gracious(words: list[str], at: int) -> int | None:
             busy += 1
         return busy if busy > at + 4 else None  # when you are done faffing about
     end = at + 1
-    while end < len(words) and words[end] in _GRACIOUS:
+    while (
+        end < len(words) and words[end] in _GRACIOUS and not (end > at + 1 and _wishes(words, end))
+    ):
         end += 1
     said = words[at:end]
     if any(said[n : n + 2] in (["find", "it"], ["get", "it"]) for n in range(len(said))):
         return None  # or the tea, if you cannot find it
     asks = _GRACE.intersection(said) and ("you" in said or "it" in said or "possible" in said)
-    closed = _word(words, end) in _SIGNS or (
-        _is_verb(words, end) and words[end] not in ("see", "find", "spot", "locate", "hold", "need")
+    closed = (
+        _word(words, end) in _SIGNS
+        or _wishes(words, end)
+        or (
+            _is_verb(words, end)
+            and words[end] not in ("see", "find", "spot", "locate", "hold", "need")
+        )
     )
     return end if asks and closed and end > at + 1 else None
+
+
+def _wishes(words: list[str], at: int) -> bool:
+    """If it is no trouble, *I would like it* done: a wish, and no courtesy."""
+    return words[at : at + 3] in (["i", "would", "like"], ["i", "would", "love"])
 
 
 def _hedge(words: list[str], at: int) -> int | None:

@@ -59,6 +59,9 @@ _RESTARTS = lexicon.phrases(
     "i mean,i meant,no i mean,sorry i mean,no,no no,no wait,wait no,no sorry,sorry,or rather"
 )
 """What is said before a clause is begun again."""
+_BROKEN_OFF = lexicon.words("that to on onto in into from at with for the a an")
+"""What nothing can end with."""
+_PRONOUNS = lexicon.words("him her them it")
 _CLAUSES = lexicon.words("and then but so or if not")
 _MOST_LOST = 3
 _FAR = 8
@@ -69,7 +72,7 @@ _STUTTERS = (3, 2)
 def fluent(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens without false starts and without what is said while a word is sought."""
     kept = _denied_first(_as_one(_without_particles(tokens)))
-    kept = _renamed(_named_anew(_restarted(kept, index), index), index)
+    kept = _renamed(_named_anew(_restarted(_set_apart(kept, index), index), index), index)
     for at in range(len(kept) - 2, -1, -1):
         if at >= len(kept) - 2 or kept[at].text not in _ARTICLES:
             continue
@@ -180,6 +183,7 @@ def _tells(begun: list[str]) -> bool:
 
 def _restarted(tokens: list[Token], index: NameIndex) -> list[Token]:
     """Put the pin *I mean put the bin*: begun again with the same verb, or behind a lost word."""
+    tokens = _taken_up(tokens, index)
     at, words = 1, [token.text for token in tokens]
     while at < len(tokens):
         start = at + (words[at] == COMMA)
@@ -196,6 +200,45 @@ def _restarted(tokens: list[Token], index: NameIndex) -> list[Token]:
             continue
         tokens = tokens[:begin] + tokens[end:]
         at, words = begin + 1, [token.text for token in tokens]
+    return tokens
+
+
+def _set_apart(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """Take it to Ada *I mean* to Leo: with the comma that is heard before it."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 3, 1, -1):
+        if words[at] != "i" or words[at + 1] not in ("mean", "meant") or _tells(words[:at]):
+            continue
+        named = any(
+            (old := index.match(words, n)) and old.end == at for n in range(max(0, at - 3), at)
+        )
+        anew = at + 2
+        anew += words[anew] in _PREPOSITIONS
+        anew += words[anew : anew + 1] != [] and words[anew] in lexicon.DETERMINERS
+        if named and anew < len(words) and index.match(words, anew) is not None:
+            tokens = [*tokens[:at], Token(COMMA, ""), *tokens[at:]]
+    return tokens
+
+
+def _taken_up(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """Tell Ada that, *tell her* that lunch is ready: broken off, and taken up with a pronoun."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 3, 2, -1):
+        end = at
+        while end > 1 and words[end - 1] in _SOUNDS | {COMMA}:
+            end -= 1
+        again = words[at] in FIRST_WORDS | _SAYS and words[at + 1] in _PRONOUNS
+        if not again or words[end - 1] not in _BROKEN_OFF or words[at + 2] in _SIGNS:
+            continue
+        for begin in range(end - 2, max(-1, end - _FAR), -1):
+            if words[begin] in _SIGNS:
+                break
+            same = words[begin] == words[at] and any(
+                (match := index.match(words, n)) and match.end == end - 1
+                for n in range(begin + 1, end - 1)
+            )
+            if same:
+                return [*tokens[: end - 1], *tokens[at + 2 :]]
     return tokens
 
 

@@ -47,6 +47,9 @@ _SLIPS = tuple(
     (re.compile(slip, re.IGNORECASE), meant)
     for slip, meant in (
         (r"\btoo(?=\s+(?:the|my|your|a|an|her|his)\b)", "to"),
+        (r"\b(i|we) should like\b", r"\1 would like"),
+        (r"\b(counter|anti)[\s-]+(?=clockwise\b)", r"\1"),
+        (r"\b(would|could|will|won't|can|can't)\s?(?:ja|jya|ya|cha)\b", r"\1 you"),
         (r"\bform(?=\s+(?:the|my|your|her|his)\b)", "from"),
         (r"\boot(?=\s+(?:the|ma|my|your|that|yon)\b)", "out of"),
         (

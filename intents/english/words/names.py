@@ -92,6 +92,7 @@ class NameIndex:
         self.colors = told | COLORS
         self.words: frozenset[str] = frozenset(told)
         self._variants = _variants(vocabulary)
+        self._categories = {t.name: t.category for t in vocabulary.objects}
         self.rooms = tuple(dict.fromkeys(s.name for s in vocabulary.rooms))
         floors = [s.name for s in (*vocabulary.rooms, *vocabulary.places) if not s.furniture]
         self.furniture = frozenset(s.name for s in vocabulary.places).difference(floors)
@@ -102,6 +103,10 @@ class NameIndex:
             self._add(name, spelling)
         for name, spelling in spellings:
             self._add_parts(name, _split(spelling))
+
+    def is_of(self, name: str, category: str | None) -> bool:
+        """Whether a thing is of a category."""
+        return bool(category) and self._categories.get(name) == category
 
     def _add(self, name: Name, spelling: str) -> None:
         words = _split(spelling)

@@ -1,4 +1,7 @@
-"""A pause between two steps is a wait: "a minute's wait", "a pause of ten seconds"."""
+"""A pause between two steps is a wait: "a minute's wait", "a pause of ten seconds".
+
+So is to stand somewhere for a while, when one has gone there: "stand there for five minutes".
+"""
 
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, Token
@@ -7,12 +10,16 @@ from intents.english.words.measures import Measure, measure
 _PAUSES = lexicon.words("wait pause break rest delay breather")
 _BEFORE = frozenset((COMMA, FULL_STOP, "then", "and"))
 _AFTER = _BEFORE | {"before", "but"}
+_STANDS = lexicon.words("stand stay remain")
 _SHORT = lexicon.words("short brief little quick")
 
 
 def pauses_as_waits(tokens: list[Token]) -> list[Token]:
     """The tokens with "wait for a minute" for "a minute's wait" where a clause says no more."""
     words = [token.text for token in tokens]
+    if "there" in words:
+        tokens = _standing_there(tokens, words)
+        words = [token.text for token in tokens]
     if _PAUSES.isdisjoint(words):
         return tokens
     plain: list[Token] = []
@@ -29,6 +36,22 @@ def pauses_as_waits(tokens: list[Token]) -> list[Token]:
         plain += [Token("wait", said), Token("for", ""), *tokens[first:last]]
         at = end
     return plain
+
+
+def _standing_there(tokens: list[Token], words: list[str]) -> list[Token]:
+    """Go to the bar and *stand there* for a minute: wait for a minute."""
+    kept: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        stands = words[at] in _STANDS and words[at + 1 : at + 2] == ["there"] and at > 1
+        if stands and words[at - 1] in _BEFORE and words[at + 2 : at + 3] in (["for"], []):
+            stands = words[at + 2 :] != [] and _time(words, at + 3) is not None
+            kept.append(Token("wait", tokens[at].raw) if stands else tokens[at])
+            at += 1 + stands
+            continue
+        kept.append(tokens[at])
+        at += 1
+    return kept
 
 
 def _pause(words: list[str], at: int) -> tuple[int, int, int] | None:

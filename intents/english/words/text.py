@@ -38,8 +38,9 @@ from intents.english.words.superlatives import listed_superlatives
 from intents.english.words.texting import spelled_out
 from intents.english.words.titles import without_titles
 from intents.english.words.verbs import FIRST_WORDS, participle_base, verbs_at
-from intents.english.words.ways import hauled, in_order
+from intents.english.words.ways import hauled, in_order, laid, led, tells_first
 from intents.english.words.whatever import all_there_is
+from intents.english.words.whereabouts import whereabouts
 from intents.vocabulary import Vocabulary
 
 T = TypeVar("T")
@@ -150,7 +151,8 @@ class Text:
         corrected = plainly_asked(without_titles(corrected, self.index), self.index)
         self.manners: list[Manner]
         corrected, self.manners = manners(corrected)
-        ordered = in_order(hauled(fluent(corrected, self.index), self.index), self.index)
+        flowing = led(laid(whereabouts(fluent(corrected, self.index), self.index)))
+        ordered = in_order(hauled(flowing, self.index), self.index)
         plain = singled_out(_without_fillers(ordered, self.index), self.index)
         plain = _unfinished(unrepeated(conditional_questions(plain, self.index)))
         plain = _colloquial(in_standard_words(plain, self.index))
@@ -262,6 +264,7 @@ def _without_fillers(tokens: list[Token], index: NameIndex) -> list[Token]:
         named = end is not None and any(index.match(words, n) for n in range(at, end))
         passed_on = end is not None and tuple(words[at:end]) in _OF_MESSAGE
         passed_on = passed_on and _in_message(said, index)
+        passed_on = passed_on or tells_first(words, at)
         if end is None or named or called or passed_on or said[-1:] == ["say"]:
             kept.append(tokens[at])
             at += 1

@@ -27,18 +27,34 @@ _AHEAD_OF: dict[Phrase, list[str]] = {
 """Other words for "before" and "after" with what is done."""
 _LINKS = words("and but then so") | {COMMA, FULL_STOP}
 _TO = words("to into towards")
+_TELLS = words("tell say inform remind announce")
+_THEN = words("then and after afterwards")
+_ONCE_THERE = phrases(
+    "when you get there,once you get there,when you are there,once you are there,"
+    "when you arrive,once you arrive,when you arrive there,once there,when there,"
+    "as soon as you get there,as soon as you are there"
+)
+_AHEAD = phrases("ahead of,before,in front of")
+_BEFORE_ORDERS = words("please and then you could can would to just") | {COMMA, FULL_STOP}
+_SPREADS = words("lay drape spread sling")
+_LAYS = words("put throw hang fling toss place pop pull draw chuck")
+_CLOTHS = words(
+    "blanket towel cloth tablecloth sheet coat jacket shirt scarf shawl rug quilt duvet "
+    "apron rag bedspread blankets towels sheets coats tarpaulin"
+)
+"""What is put over a thing lies on it."""
 _WHITHER = phrases("into,onto,to")
 _BETWEEN = words("then back straight right over")
 _OFF = words("off from out")
 _FAR = 7
 """So many words before its end where something comes from begins."""
-_LONGEST = 4
+_LONGEST = 6
 
 
 def in_order(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens with what is done on the way said to be done first."""
     for at in range(len(tokens) - 1, -1, -1):
-        tokens = _ahead_of(tokens, at)
+        tokens = _if_there(_ahead_of(tokens, at), at)
         said = [token.text for token in tokens]
         tokens = (
             _through(tokens, said, at, index)
@@ -46,6 +62,39 @@ def in_order(tokens: list[Token], index: NameIndex) -> list[Token]:
             or _on_the_way(tokens, said, at)
             or tokens
         )
+    return tokens
+
+
+def led(tokens: list[Token]) -> list[Token]:
+    """Walk *ahead of me* to the hall: guide me there."""
+    said = [token.text for token in tokens]
+    for at in range(len(said) - 4):
+        if said[at] not in ("go", "walk") or (at and said[at - 1] not in _BEFORE_ORDERS):
+            continue
+        first = at + 1 + (said[at + 1] == "you")
+        end = _end(_AHEAD, said, first)
+        if end and said[end : end + 1] in (["me"], ["us"]) and said[end + 1 : end + 2]:
+            to = said[end + 1]
+            if to in _TO or (to == "in" and said[end + 2 : end + 3] != []):
+                guide = [
+                    Token("guide", tokens[at].raw),
+                    tokens[end],
+                    Token("to", tokens[end + 1].raw),
+                ]
+                return [*tokens[:at], *guide, *tokens[end + 2 :]]
+    return tokens
+
+
+def laid(tokens: list[Token]) -> list[Token]:
+    """Lay the blanket *over* the sofa: on it; what is held or thrown over it is not."""
+    said = [token.text for token in tokens]
+    for at in range(1, len(said) - 1):
+        begun = max((n + 1 for n in range(at) if said[n] in _LINKS), default=0)
+        cloth = not _CLOTHS.isdisjoint(said[begun:at])
+        spreads = not _SPREADS.isdisjoint(said[begun:at])
+        spreads = spreads or (cloth and not _LAYS.isdisjoint(said[begun:at]))
+        if said[at] == "over" and spreads and said[at + 1] in DETERMINERS:
+            tokens = [*tokens[:at], Token("onto", tokens[at].raw), *tokens[at + 1 :]]
     return tokens
 
 
@@ -65,6 +114,20 @@ def hauled(tokens: list[Token], index: NameIndex) -> list[Token]:
     return tokens
 
 
+def tells_first(said: list[str], at: int) -> bool:
+    """Whether "first" belongs to what is told: "tell Leo that dinner comes *first*".
+
+    Behind a message it is about the message, unless more is to be done then.
+    """
+    if said[at] != "first" or said[at - 1] in _LINKS:
+        return False
+    begun = max((n + 1 for n in range(at) if said[n] in _LINKS), default=0)
+    told = next((n for n in range(begun, at) if said[n] in _TELLS), None)
+    if told is None or at < told + 3 or said[at + 1 : at + 2] in (["that"], ["to"]):
+        return False
+    return _THEN.isdisjoint(said[at + 1 : at + 3])
+
+
 def _ahead_of(tokens: list[Token], at: int) -> list[Token]:
     """*Prior to* opening it, *before to* open it: before opening it, before you open it."""
     said = tuple(token.text for token in tokens[at : at + 3])
@@ -72,6 +135,19 @@ def _ahead_of(tokens: list[Token], at: int) -> list[Token]:
         return tokens
     plain = [Token(word, tokens[at].raw) for word in _AHEAD_OF[said[:2]]]
     return [*tokens[:at], *plain, *tokens[at + 2 :]]
+
+
+def _if_there(tokens: list[Token], at: int) -> list[Token]:
+    """Go to the hall *and when you get there* if the lamp is on, ...: a sentence of its own."""
+    said = [token.text for token in tokens]
+    end = _end(_ONCE_THERE, said, at)
+    end += bool(end) and said[end : end + 1] == [COMMA]
+    if not end or said[end : end + 1] not in (["if"], ["unless"]) or not at:
+        return tokens
+    begin = at
+    while begin and said[begin - 1] in _LINKS:
+        begin -= 1
+    return [*tokens[:begin], Token(FULL_STOP, ""), *tokens[end:]] if begin else tokens
 
 
 def _end(table: Collection[Phrase], said: list[str], at: int) -> int:
@@ -123,7 +199,9 @@ def _before_going(
 def _on_the_way(tokens: list[Token], said: list[str], at: int) -> list[Token] | None:
     """Go to the hall and take the cup *on the way*, or *first*: but first take the cup."""
     end = _end(_ON_THE_WAY, said, at)
-    first = _end(_FIRST, said, at)
+    first = 0 if tells_first(said, at) else _end(_FIRST, said, at)
+    if first and said[first : first + 1] in (["that"], ["to"]) and said[at - 2] in _TELLS:
+        return [*tokens[:at], *tokens[first:]]  # tell Ada first that lunch is ready
     behind = bool(first) or said[at - 1] not in _LINKS
     end = first or end
     if not end or not at or (behind and not _closes(said, end)):

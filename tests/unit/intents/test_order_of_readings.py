@@ -14,7 +14,6 @@ from intents.english.readings import (
     ends,
     fronted,
     light_verbs,
-    remarks,
     time_clauses,
     verb,
 )
@@ -26,7 +25,6 @@ from intents.english.words.text import Text
 
 BOTH_READ = [
     (conditionals.conditional, time_clauses.one_before_the_other, "when you see Noor, nod"),
-    (remarks.left_somewhere, fronted.fronted, "I put my orange on the sofa, go and get it for me"),
     (light_verbs.light_verb, verb.verb, "give a little nod"),
     (ends.resultative, verb.verb, "I need the thermos put on the sofa"),
     (time_clauses.until_told, verb.verb, "stay there until we are back, then come here"),

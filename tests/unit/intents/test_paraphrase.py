@@ -49,6 +49,37 @@ def test_what_strangers_say_is_read_as_what_is_said_plainly(said: str, plain: st
     assert outcome.goals == wanted.goals
 
 
+class Stuck:
+    """A network that writes the same words for ever, as sure as one can be."""
+
+    def __init__(self, says: list[str], *, likely: float) -> None:
+        self._net, self._likely, self._says = shipped(), likely, says
+        self.written = 0
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(self._net, name)
+
+    def begin(self, _read: object, _heads: object) -> "Stuck":
+        return self
+
+    def after(self, _word: int) -> np.ndarray:
+        odds = np.full(len(self._net.words), -99.0)
+        word = self._says[self.written % len(self._says)]
+        odds[self._net.numbers_of[word]] = np.log(self._likely)
+        self.written += 1
+        return odds
+
+
+@pytest.mark.parametrize(
+    ("says", "likely", "at_most"), [(["bring", "the"], 1.0, 4), (["the"], 0.5, 6)]
+)
+def test_who_is_lost_for_words_stops_talking(says: list[str], likely: float, at_most: int) -> None:
+    stuck = Stuck(says, likely=likely)
+    said = Heard("would you whisk the thermos to Ingrid", INDEX, stuck).paraphrase()  # type: ignore[arg-type]
+    assert said.text == ASK
+    assert stuck.written <= at_most
+
+
 @pytest.mark.parametrize(
     "said",
     [

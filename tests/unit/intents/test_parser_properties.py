@@ -8,11 +8,13 @@ from test_constructions import CASES
 from test_grammar_table import BODY, FREE_SPEECH, HANDLING, MISSION, MOTION, PEOPLE, SEQUENCES
 from workshop_words import WORKSHOP
 
+from intents.context import Context
 from intents.english.words.spelling import COMMON_WORDS, GRAMMAR_WORDS
 from intents.goals import from_json, to_json
 from intents.outcomes import Goals, Question, Refusal
-from intents.parser import MAX_CHARACTERS, hear, parse
+from intents.parser import MAX_CHARACTERS, first_look, hear, parse
 from intents.vocabulary import Thing, Vocabulary
+from tests.fakes.machine import in_paces
 
 SENTENCES = [*HANDLING, *SEQUENCES, *MOTION, *BODY, *PEOPLE, *MISSION, *FREE_SPEECH, *CASES]
 WORDS = sorted({w for s in SENTENCES for w in s.split()} | {",", ".", "and", "then", "'s", '"'})
@@ -29,10 +31,21 @@ def test_no_string_raises(text: str) -> None:
     assert isinstance(parse(text, WORKSHOP), Goals | Question | Refusal)
 
 
+salads = st.lists(st.sampled_from(WORDS), max_size=16).map(" ".join)
+
+
 @settings(max_examples=500)
-@given(st.lists(st.sampled_from(WORDS), max_size=16).map(" ".join))
+@given(salads)
+def test_the_grammar_reads_any_salad_of_known_words_or_says_why_not(text: str) -> None:
+    outcome = first_look(text, WORKSHOP, Context()).outcome
+    if isinstance(outcome, Goals):
+        assert from_json(to_json(outcome.goals)) == outcome.goals
+
+
+@settings(max_examples=60)
+@given(salads)
 def test_no_salad_of_known_words_raises_and_goals_are_valid(text: str) -> None:
-    outcome, context = hear(text, WORKSHOP)
+    outcome, context = hear(text, WORKSHOP)  # the network, too, and what is said next
     if isinstance(outcome, Goals):
         assert from_json(to_json(outcome.goals)) == outcome.goals
     hear(text, WORKSHOP, context=context)
@@ -108,5 +121,4 @@ def test_left_and_right_turns_are_opposite(degrees: int) -> None:
 
 def test_long_sentences_are_read_in_time() -> None:
     sentence = ", then ".join(SENTENCES[:12])[:MAX_CHARACTERS]
-    outcome = parse(sentence, WORKSHOP)
-    assert outcome.ms < 250
+    assert in_paces(lambda: parse(sentence, WORKSHOP), tries=3) < 400

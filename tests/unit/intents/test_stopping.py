@@ -1,12 +1,11 @@
 """Cries to stop: none is missed, whatever it looks like, and none takes long."""
 
-import time
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from intents.stopping import is_stay, is_stop
+from tests.fakes.machine import in_paces
 
 CRIES = (
     "stop", "STOP!", "Stop!!! Stop!!!", "stpo", "sotp", "stopp", "STOOOOP", "s t o p", "S.T.O.P",
@@ -55,13 +54,7 @@ def test_a_cry_of_its_own_at_the_end_is_heard(before: str, cry: str) -> None:
     ids=lambda t: ascii(t[:6]),
 )
 def test_no_text_takes_long(text: str) -> None:
-    is_stop(text)
-    took_s = []
-    for _ in range(5):
-        began = time.perf_counter()
-        is_stop(text)
-        took_s.append(time.perf_counter() - began)
-    assert min(took_s) < 0.02  # what grows with the square takes seconds; machines differ
+    assert in_paces(lambda: is_stop(text)) < 40  # what grows with the square takes thousands
 
 
 HIDDEN = (
