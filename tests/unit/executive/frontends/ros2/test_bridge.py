@@ -269,19 +269,20 @@ def test_a_stop_is_heeded_whatever_kind_it_is_and_whatever_is_in_it(rig):
         assert eventually(sent)
 
 
-def test_the_emergency_stop_is_pressed_by_its_topic_and_by_the_word(rig):
-    presses = rig.told.did.count("estop")
+@pytest.mark.parametrize("words", ["estop reset", "éstop reset", "\x1b[1mestop release"])
+def test_the_emergency_stop_is_pressed_by_its_topic_and_by_the_word(rig, words):
+    before, presses = len(rig.told.did), rig.told.did.count("estop")
     assert eventually(
         lambda: (rig.peer.send("estop", EMPTY, b"x"), rig.told.did.count("estop") > presses)[1]
     )
     presses = rig.told.did.count("estop")
 
     def pressed():
-        rig.peer.say("estop reset")  # undone where the robot is
+        rig.peer.say(words)  # undone where the robot is
         return rig.told.did.count("estop") > presses
 
     rig.until(pressed)
-    assert not any("reset" in one for one in rig.told.did)
+    assert not any("reset" in one or "release" in one for one in rig.told.did[before:])
 
 
 def test_a_velocity_is_handed_on_and_why_it_is_not_walked_is_told(rig):
