@@ -106,7 +106,7 @@ class Told:
         self.did.append(name)
         self.out(f"of {name}")
 
-    def line(self, text, *, stops=None):
+    def line(self, text, *, stops=None, afar=False):
         self.go_on.wait(HANG_S)
         self.did.append(f"{text} ({stops})")
         match text:

@@ -18,6 +18,7 @@ from typing import Any, Protocol
 
 import msgspec
 
+from executive.frontends.emergency import undoes
 from executive.frontends.line_server import LineServer, is_own
 from executive.frontends.output import as_mistake
 from executive.frontends.printer import Printer
@@ -38,6 +39,8 @@ MAX_ORDER = 1 << 16
 LOOK_S = 0.2
 """How often it is looked whether the robot asks something."""
 LEAVING = ("quit", "exit")
+GOING_ON = ("release", "reset", "resume")
+"""Buttons after which the robot may move: a stop that was pressed after them has the last word."""
 
 
 class Place(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -57,11 +60,17 @@ class Of(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     inode: int
 
 
-class Order(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What a page wants: a button that was pressed (`do`), or a `line` as at the prompt."""
+class Order(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """What a page wants: a button that was pressed (`do`), or a `line` as at the prompt.
+
+    Attributes:
+        begun_s: when it came from the page, in seconds since boot. Stops overtake what a page said
+            before them, and that is about them still when it arrives (None: as when it arrives).
+    """
 
     do: str = ""
     line: str = ""
+    begun_s: float | None = None
 
 
 class Steered(Protocol):
@@ -81,6 +90,10 @@ class Steered(Protocol):
     @property
     def asked(self) -> tuple[str, tuple[str, ...]] | None:
         """What a person is asked, and what can be answered."""
+        ...
+
+    def stops_by(self, begun_s: float | None) -> int:
+        """How often it had been told to stop by then, in seconds since boot (None: by now)."""
         ...
 
     def stop(self, why: str) -> None:
@@ -184,30 +197,34 @@ class Desk(Closing):
     def _heed(self, order: Order) -> None:
         """Do what can be done at once, here; a mistake in it ends nothing."""
         try:
+            stops = self._shell.stops_by(order.begun_s)
             if order.do:
-                self._press(order.do)
+                self._press(order.do, stops)
             elif order.line.strip():
-                self._take(order.line)
+                self._take(order.line, stops)
         except RobotError as error:
             self._shell.out(f"Not done: {error}")
         except Exception as error:
             self._shell.out(as_mistake(error))
 
-    def _press(self, button: str) -> None:
+    def _press(self, button: str, stops: int) -> None:
         shell = self._shell
         if button == "stop":
             shell.stop("STOP was pressed on the page")
         elif button == "estop":
             shell.stop_at_once("estop")
+        elif button in GOING_ON and stops != shell.stops:
+            shell.out(f"Not done: {button} was pressed before the robot was told to stop.")
         elif button in ("release", "reset"):
             shell.stop_at_once(f"estop {button}")
         elif button in ("pause", "resume", "cancel"):
             shell.command(button)
 
-    def _take(self, text: str) -> None:
+    def _take(self, text: str, stops: int) -> None:
         """A line: a stop and a halt act here, whatever else is being worked off."""
-        shell, stops = self._shell, self._shell.stops
-        stopped = shell.stop_at_once(text)  # first of all, of the whole of it
+        shell = self._shell
+        late = stops != shell.stops and undoes(text)
+        stopped = not late and shell.stop_at_once(text)  # first of all, of the whole of it
         text = text[:MAX_LINE]
         if not stopped and self._waiting >= MOST_LINES:
             shell.out("Too many lines at once: that one is left out.")

@@ -36,6 +36,7 @@ from executive.frontends.console.proof import CONSOLE, PAGE, fresh, holds, proof
 from executive.frontends.console.steering import Steering
 from executive.frontends.console.telling import told
 from executive.frontends.output import say
+from executive.frontends.since_boot import now_s
 from executive.skills.motions.personal_space import ZONE_M
 from robot.errors import RobotError
 from robot.messages import PERSON_RADIUS_M
@@ -266,7 +267,7 @@ class PageServer:
             if not (wish.do or wish.line):
                 viewer.wishes(wish)
                 continue
-            order = Order(do=wish.do, line=wish.line)
+            order = Order(do=wish.do, line=wish.line, begun_s=now_s())
             if not pace.heeds(order, asyncio.get_running_loop().time()):
                 if pace.refused == 1:
                     await connection.send(_json({"word": {"out": TOO_MUCH}}), text=True)

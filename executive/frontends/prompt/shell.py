@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from executive.behaviours.ask import ANSWERS, Answer, answer_of
 from executive.engine.jobs import Job
+from executive.frontends.emergency import AT_THE_ROBOT, emergency, plain, undoes
 from executive.frontends.prompt.answering import Answering, Out
 from executive.frontends.prompt.brake import Brake
 from executive.frontends.prompt.command import Command
@@ -33,7 +34,7 @@ from intents.correcting import is_correction
 from intents.dialogue import Dialogue
 from intents.goals import Goal
 from intents.halting import besides, is_halt
-from intents.letters import bare, seen, without_sequences
+from intents.letters import seen
 from intents.outcomes import Question, Refusal
 from intents.parser import hear
 from intents.state import RobotState
@@ -93,6 +94,7 @@ class Shell(Answering):
             model=model,
         )
         self._slip = "", 0
+        self._afar = False
         self._naming = NamingJobs(
             robot, brake=self.brake, queue=self.queue, people=self, read=self.dialogue.vocabulary
         )
@@ -100,23 +102,21 @@ class Shell(Answering):
 
     def stop_at_once(self, text: str) -> bool:
         """Stop if a line is a cry to stop, before anything else looks at it; never waits."""
-        text = _plain(text)
-        if text.startswith("estop"):
-            self.commands["estop"].run(text.removeprefix("estop").strip())
+        said = emergency(text)
+        if said is not None:
+            self.commands["estop"].run(said.wish if said.undoes else said.rest)
             return True
-        if not self.brake.is_cry(text):
+        if not self.brake.is_cry(plain(text)):
             return False
         self.brake.stop("the operator said stop")
         return True
 
     def is_emergency(self, text: str) -> bool:
         """Whether a line is about the emergency stop; unless it undoes that, it is pressed here."""
-        name, *rest = _plain(text).split(maxsplit=1) or [""]
-        if not name.startswith("estop"):
-            return False
-        if rest not in (["release"], ["reset"]):
+        said = emergency(text)
+        if said is not None and not said.undoes:
             self.brake.press()
-        return True
+        return said is not None
 
     @property
     def asks(self) -> bool:
@@ -200,7 +200,7 @@ class Shell(Answering):
         self.leaving = True
         self.brake.leave()
 
-    def line(self, text: str, *, stops: int | None = None) -> None:
+    def line(self, text: str, *, stops: int | None = None, afar: bool = False) -> None:
         """Do what a line says; never raises for what is in it.
 
         Args:
@@ -208,6 +208,7 @@ class Shell(Answering):
             stops: what `stops` was by then (None: as now), by whom it was looked then whether it
                 is a cry; a stop since then is about this line too, which is read no more: many
                 may wait, and the robot comes to a stand meanwhile.
+            afar: whether whoever typed it may not see the robot: no emergency stop is undone then.
         """
         before = self.stops if stops is None else stops
         if self.brake.stopped_since(stops):
@@ -215,13 +216,13 @@ class Shell(Answering):
                 self.refuse_stopped(text)
             return
         try:
-            if self.stop_at_once(text):
+            if not (afar and undoes(text)) and self.stop_at_once(text):
                 return
         except RobotError as error:
             self.refuse(f"Not done: {error}")
             self.ask_to_go_on()
             return
-        with self._turn(before):
+        with self._turn(before, afar=afar):
             halted = self.halt_at_once(text)
             text = "".join(one if one.isprintable() else " " for one in seen(text)).strip()
             if self.brake.stopped:
@@ -245,10 +246,11 @@ class Shell(Answering):
                 self.sentence(text)
 
     @contextmanager
-    def _turn(self, stops: int) -> Generator[None]:
+    def _turn(self, stops: int, *, afar: bool = False) -> Generator[None]:
         """One line: people at the terminal and at pages take turns."""
         with self._one_line:
             self.brake.stops_before = stops
+            self._afar = afar
             try:
                 yield
             except RobotError as error:
@@ -287,7 +289,9 @@ class Shell(Answering):
         rest = rest.strip()
         command = self.commands.get(first.casefold())
         offered = self._take_slip()
-        if offered and (said := verdict_of(text)) is not None:
+        if self._afar and undoes(text):  # also as what a slip was meant to be
+            self.refuse(AT_THE_ROBOT)
+        elif offered and (said := verdict_of(text)) is not None:
             if said:
                 self._take(offered)
             else:
@@ -382,8 +386,3 @@ class Shell(Answering):
         self._tell_of_halt()
         self.dialogue.ask(question)
         self.answer(question.question)
-
-
-def _plain(text: str) -> str:
-    """A line without what cannot be seen."""
-    return bare(without_sequences(text)).strip()

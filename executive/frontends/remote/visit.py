@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import msgspec
 
-from executive.frontends.remote.wire import ANYBODYS, ECHO, Beat, Bye, line, refusal
+from executive.frontends.remote.wire import ANYBODYS, ECHO, Beat, Bye, asked_by, line, refusal
 from executive.frontends.service import messages as m
 from executive.frontends.service import place as places
 from robot.errors import RobotError
@@ -171,6 +171,7 @@ class Visit:
         return self._gate.is_good(self._guest)
 
     async def _take(self, asked: m.Request) -> None:
+        asked = asked_by(self._guest.role, asked)
         why = refusal(self._guest.role, asked)
         if not why and isinstance(asked, m.Say) and not self._tie.holds:
             why = NO_LINK
@@ -207,7 +208,8 @@ class Visit:
             )
             self._hearing = asyncio.create_task(self._hear(told))
         if isinstance(asked, m.Say):
-            asked = msgspec.structs.replace(asked, begun_s=None)  # of a clock that is not this one
+            # When it began is of a clock that is not this one.
+            asked = msgspec.structs.replace(asked, begun_s=None, afar=True)
             self._tie.lines.add((self, asked.number))
         self._robot.write(m.line_of(asked))
         await self._robot.drain()

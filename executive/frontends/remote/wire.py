@@ -11,8 +11,10 @@ import re
 
 import msgspec
 
+from executive.frontends.emergency import AT_THE_ROBOT, emergency, plain, undoes
 from executive.frontends.remote.invitation import Role
 from executive.frontends.service import messages as m
+from intents.letters import latin
 from intents.stopping import is_stop
 
 BEAT_S = 0.1
@@ -43,6 +45,21 @@ def line(data: bytes) -> m.Request | Beat | Bye:
     return _lines.decode(data)
 
 
+def asked_by(role: Role, asked: m.Request) -> m.Request:
+    """What is asked by somebody of a role: a line of one who may only stop is that button.
+
+    A line is read where it is worked off, by what the robot is at: what is a cry to one at work
+    may be an errand to another ("walk to the table and stop").
+    """
+    if role == "command" or not isinstance(asked, m.Say) or _undoes(asked.text):
+        return asked
+    if emergency(asked.text) is not None:
+        return m.Press(number=asked.number, button="estop")
+    if is_stop(asked.text):
+        return m.Press(number=asked.number, button="stop")
+    return asked
+
+
 def refusal(role: Role, asked: m.Request) -> str:
     """Why a role may not ask something, as a sentence with its cure; empty: it may."""
     match asked:
@@ -51,10 +68,8 @@ def refusal(role: Role, asked: m.Request) -> str:
         case m.Down():
             return "Only at the robot itself it is ended; `humanoid stop` stops it from here."
         case m.Say(text=text) if _undoes(text):
-            return "An emergency stop is undone by somebody who stands at the robot."
+            return AT_THE_ROBOT
         case m.Press(button=button) if button in ANYBODYS:
-            return ""
-        case m.Say(text=text) | m.Halt(text=text) if is_stop(text) or _is_estop(text):
             return ""
         case m.Status() | m.Halt():
             return ""
@@ -69,10 +84,8 @@ def refusal(role: Role, asked: m.Request) -> str:
             )
 
 
-def _is_estop(text: str) -> bool:
-    return _LETTERS.sub("", text.casefold()).startswith("estop")
-
-
 def _undoes(text: str) -> bool:
     """Whether a line may undo an emergency stop, however it is written."""
-    return _is_estop(text) and bool(re.search(r"release|reset", text.casefold()))
+    letters = _LETTERS.sub("", latin(plain(text)))
+    worded = letters.startswith("estop") and bool(re.search(r"release|reset", letters))
+    return worded or undoes(text)

@@ -12,6 +12,7 @@ from typing import Any
 
 import msgspec
 
+from executive.frontends.emergency import emergency
 from executive.frontends.ros2 import messages, topics
 from executive.frontends.ros2.cdr import CdrError, decode
 from executive.frontends.ros2.link_frames import LinkFrames
@@ -110,7 +111,7 @@ class Bridge:
         for data in _some(self._goal):
             if (goal := self._decoded(topics.GOAL, data)) is None:
                 continue
-            if str(goal["data"]).strip().casefold().startswith("estop"):
+            if emergency(str(goal["data"])) is not None:
                 self._orders.press("estop")  # it is released where the robot is
             else:
                 self._orders.say(goal["data"])

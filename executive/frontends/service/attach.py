@@ -16,6 +16,7 @@ import msgspec
 from msgspec.structs import replace
 
 from executive.engine.loop import Interrupts
+from executive.frontends.emergency import emergency, plain
 from executive.frontends.output import as_mistake, say
 from executive.frontends.prompt.command import Command, anything
 from executive.frontends.prompt.plain import lines_until, work_off
@@ -31,7 +32,6 @@ from executive.frontends.service.remote_brake import RemoteBrake
 from executive.frontends.since_boot import process_began_s
 from executive.health import Level
 from intents.halting import is_halt
-from intents.letters import bare, without_sequences
 from intents.vocabulary import Vocabulary
 from robot.clock import Clock, WallClock
 from robot.errors import RobotError
@@ -41,8 +41,6 @@ WAY_BACK_S = 60.0
 """So long a line waits for an executive that takes over."""
 LOOK_S = 0.2
 DEAF = "it does not answer"
-ESTOP: Mapping[str, m.Button] = {"release": "release", "reset": "reset"}
-"""What can be said after `estop`, besides nothing."""
 
 
 def attach(place: Place) -> int:
@@ -336,23 +334,21 @@ class RemoteShell:
 
     def stop_at_once(self, text: str) -> bool:
         """Stop if a line is a cry to stop, before anything else looks at it."""
-        text = plain(text)
-        if text.startswith("estop"):
-            self.brake.press(ESTOP.get(text.removeprefix("estop").strip(), "estop"))
+        said = emergency(text)
+        if said is not None:
+            self.brake.press(said.wish)
             return True
-        if not self.brake.is_cry(text):
+        if not self.brake.is_cry(plain(text)):
             return False
         self.brake.stop("")
         return True
 
     def is_emergency(self, text: str) -> bool:
         """Whether a line is about the emergency stop; unless it undoes that, it is pressed here."""
-        name, *rest = plain(text).split(maxsplit=1) or [""]
-        if not name.startswith("estop"):
-            return False
-        if not rest or rest[0] not in ESTOP:
+        said = emergency(text)
+        if said is not None and not said.undoes:
             self.brake.press("estop")
-        return True
+        return said is not None
 
     def halt_at_once(self, text: str, *, busy: bool | None = None) -> bool:
         """Halt a robot at work if a line is a cry that ends nothing."""
@@ -390,8 +386,3 @@ class RemoteShell:
 
     def leave(self) -> None:
         """Nothing comes of it: the robot goes on."""
-
-
-def plain(text: str) -> str:
-    """A line without what cannot be seen."""
-    return bare(without_sequences(text)).strip()

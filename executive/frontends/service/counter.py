@@ -17,6 +17,7 @@ import msgspec
 
 from executive.engine.jobs import OVER
 from executive.engine.teleoperation import Velocity
+from executive.frontends.emergency import AT_THE_ROBOT, undoes
 from executive.frontends.line_server import Client, LineServer, is_own
 from executive.frontends.output import as_mistake
 from executive.frontends.prompt.shell import Shell
@@ -293,6 +294,10 @@ class Counter(Closing):
         self._log.append(told)
         self._recent.append(told)
         self._tell_watchers(m.Words(text=told), but=client)
+        if (asked.spoken or asked.afar) and undoes(asked.text):
+            self._say(AT_THE_ROBOT)
+            self._end(client, asked.number, ExitStatus.INVALID)
+            return
         if shell.stop_at_once(asked.text):
             self._end(client, asked.number, ExitStatus.DONE)
             return
@@ -321,7 +326,7 @@ class Counter(Closing):
         status = ExitStatus.DONE
         try:
             if not asked.spoken:
-                shell.line(asked.text, stops=stops)
+                shell.line(asked.text, stops=stops, afar=asked.afar)
             elif not shell.help(asked.text):
                 shell.hear(asked.text, stops=stops)
         except Exception as error:  # in this software: the robot goes on

@@ -59,6 +59,7 @@ class Say(_Request, frozen=True, kw_only=True, tag="say"):
             typed; a stop since then is about this line too (None: as when it arrives).
         begun_s: when it was asked for, in seconds since boot, where how often is not known.
         spoken: it is a sentence, or an answer, and no command of the prompt.
+        afar: whoever says it may not see the robot, nor who stands near it.
     """
 
     text: Text
@@ -66,6 +67,7 @@ class Say(_Request, frozen=True, kw_only=True, tag="say"):
     stops: int | None = None
     begun_s: float | None = None
     spoken: bool = False
+    afar: bool = False
 
 
 class Halt(_Request, frozen=True, kw_only=True, tag="halt"):

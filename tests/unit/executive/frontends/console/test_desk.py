@@ -12,6 +12,7 @@ import pytest
 
 from executive.frontends.console import desk as desks
 from executive.frontends.console.desk import FILE, Desk
+from executive.frontends.since_boot import now_s
 from tests.fakes.steered import Told
 from tests.fakes.waiting import HANG_S
 
@@ -190,7 +191,7 @@ def test_a_line_that_comes_as_the_run_ends_is_no_mistake(told, folder):
     private.mkdir()
     with Desk(told, folder=folder, private=private) as desk:
         pass
-    desk._take("wave")
+    desk._heed(desks.Order(line="wave"))
     assert not any("mistake" in line for line in told.said)
 
 
@@ -223,3 +224,32 @@ def test_a_stop_is_heard_in_a_line_that_is_too_long(desk, told, folder, monkeypa
     monkeypatch.setattr(told, "stop_at_once", lambda text: told.did.append(text[-4:]) or True)
     Client(folder).order(line=f"{'and ' * desks.MAX_LINE}"[: desks.MAX_ORDER // 2] + "stop")
     until(lambda: told.did == ["stop"])
+
+
+def test_a_stop_overtakes_what_was_said_before_it(desk, told, folder):
+    """Stops have a connection of their own; what a page said before them arrives after them."""
+    lines, stops = Client(folder), Client(folder)
+    before_s = now_s()
+    stops.order(do="stop", begun_s=now_s())
+    until(lambda: told.stops == 1)
+    lines.order(line="go to the table", begun_s=before_s)
+    lines.order(line="go to the shelf", begun_s=now_s())
+    until(lambda: "go to the shelf (1)" in told.did)
+    assert told.did == ["stop", "go to the table (0)", "go to the shelf (1)"]  # (0): not read
+
+
+@pytest.mark.parametrize("button", ["release", "reset", "resume"])
+def test_a_stop_has_the_last_word_over_a_button_that_lets_the_robot_go_on(
+    desk, told, folder, button
+):
+    lines, stops = Client(folder), Client(folder)
+    before_s = now_s()
+    stops.order(do="stop", begun_s=now_s())
+    until(lambda: told.stops == 1)
+    lines.order(do=button, begun_s=before_s)
+    if button != "resume":
+        lines.order(line=f"estop {button}", begun_s=before_s)
+    lines.order(do="pause")
+    until(lambda: "pause" in told.did)
+    assert not any(button in one for one in told.did if not one.endswith("(0)"))
+    assert any(f"{button} was pressed before" in one for one in told.said)

@@ -7,7 +7,10 @@ from pathlib import Path
 import pytest
 
 from executive.frontends.console.desk import Desk, Order
+from executive.frontends.emergency import AT_THE_ROBOT
+from executive.frontends.since_boot import now_s
 from intents.dialogue import Dialogue
+from robot.errors import RobotError
 from tests.fakes.puppet_shell import puppet_shell
 from tests.fakes.waiting import eventually
 
@@ -70,3 +73,35 @@ def test_lines_of_a_page_that_wait_do_not_keep_a_robot_up(tmp_path: Path, monkey
             monkeypatch.setattr(Dialogue, "hear", read_nothing)
         assert eventually(lambda: not desk._waiting or desk._worker._work_queue.empty())
         assert not shell.robot.executive.jobs
+
+
+def test_what_a_page_said_before_a_stop_sets_nothing_going_after_it(tmp_path: Path):
+    """It was on its way still when the stop, which waits for nobody, was heeded."""
+    said: list[str] = []
+    private = tmp_path / "private"
+    private.mkdir()
+    with (
+        puppet_shell(tmp_path, said) as shell,
+        Desk(shell, folder=tmp_path, private=private) as desk,
+    ):
+        before_s = now_s()
+        desk._heed(Order(do="stop", begun_s=now_s()))
+        desk._heed(Order(line="walk to the shelf", begun_s=before_s))
+        assert eventually(lambda: any("was there when you said stop" in one for one in said))
+        assert not shell.robot.executive.jobs
+
+
+def test_an_emergency_stop_is_undone_by_nobody_afar_by_no_slip_either(tmp_path: Path):
+    said: list[str] = []
+    with puppet_shell(tmp_path, said) as shell:
+        shell.line("estop")
+        for text in ("release", "yes", "estp release", "yes", "éstop release", "estop  reset"):
+            shell.line(text, afar=True)
+        assert shell.robot.executive.estop.latched
+        with pytest.raises(RobotError):  # it was not even released
+            shell.robot.executive.reset_estop()
+        assert sum(AT_THE_ROBOT in one for one in said) == 4
+        shell.line("release")
+        shell.line("yes")
+        shell.line("estop reset")
+        assert not shell.robot.executive.estop.latched

@@ -197,7 +197,17 @@ def test_who_watches_commands_nothing_and_is_told_why(house):
         assert house.told.did == []
 
 
-@pytest.mark.parametrize("asked", [m.Press(button="reset"), m.Say(text="estop reset")])
+def test_who_watches_stops_by_a_line_and_sets_nothing_going(house):
+    with house.visited(role="watch") as (place, _):
+        ended, _ = ask(place, m.Say(text="walk to the table and stop"))
+        assert ended.status == ExitStatus.DONE
+        assert house.told.did == ["stop"]
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [m.Press(button="reset"), *(m.Say(text=text) for text in ("estop reset", "éstop reset"))],
+)
 def test_an_emergency_stop_is_not_undone_from_afar(house, asked):
     with house.visited() as (place, _):
         ended, words = ask(place, asked)

@@ -18,7 +18,8 @@ STOPS = (
 FOR_NOBODY = (
     m.Press(button="release"), m.Press(button="reset"), m.Down(), m.Say(text="estop reset"),
     m.Say(text=" eStop   RELEASE"), m.Say(text="e-stop\treset"), m.Say(text="es\u200btop reset"),
-    m.Say(text="estop\x1b[31m reset"),
+    m.Say(text="estop\x1b[31m reset"), m.Say(text="\x1b[31mestop reset"), m.Say(text="éstop reset"),
+    m.Say(text="ｅｓｔｏｐ release"), m.Say(text="estop réset"), m.Say(text="\u0435stop reset"),
 )  # fmt: skip
 ORDERS = (
     m.Say(text="go to the table"), m.Say(text="resume"), m.Press(button="resume"),
@@ -29,7 +30,7 @@ LOOKS = (m.Queue(), m.Watch(views=True), m.Await(jobs=(1,)))
 
 def may(role: Role) -> set[m.Request]:
     asked = (*STOPS, *FOR_NOBODY, *ORDERS, *LOOKS, m.Status())
-    return {one for one in asked if not wire.refusal(role, one)}
+    return {one for one in asked if not wire.refusal(role, wire.asked_by(role, one))}
 
 
 def test_roles_may_what_they_say_and_no_more():
@@ -37,6 +38,27 @@ def test_roles_may_what_they_say_and_no_more():
     assert may("stop") == {*STOPS, m.Status()}
     assert may("watch") == {*STOPS, *LOOKS, m.Status()}
     assert may("command") == {*STOPS, *LOOKS, *ORDERS, m.Status()}
+
+
+@pytest.mark.parametrize("role", ["watch", "stop"])
+@pytest.mark.parametrize(
+    "text",
+    [*(one.text for one in STOPS if isinstance(one, m.Say)), "walk to the table and stop",
+     "stop after two seconds", "estop, and walk to the table", "e stop walk to the table"],
+)  # fmt: skip
+def test_who_may_only_stop_presses_a_button_whatever_else_is_in_the_line(role, text):
+    """What is a cry to a robot at work may be an errand to one at rest."""
+    asked = wire.asked_by(role, m.Say(text=text, number=3))
+    assert isinstance(asked, m.Press)
+    assert asked.button in ("stop", "estop")
+    assert asked.number == 3
+    assert wire.asked_by("command", m.Say(text=text)) == m.Say(text=text)
+
+
+@pytest.mark.parametrize("role", ["watch", "stop"])
+@pytest.mark.parametrize("text", ["es, topple: walk to the table", "yes", "release", "resume"])
+def test_who_may_only_stop_says_nothing_else(role, text):
+    assert wire.refusal(role, wire.asked_by(role, m.Say(text=text)))
 
 
 def test_every_request_is_thought_of():

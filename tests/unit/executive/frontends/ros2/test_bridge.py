@@ -274,19 +274,20 @@ def test_a_stop_is_heeded_whatever_kind_it_is_and_whatever_is_in_it(rig):
         assert eventually(sent)
 
 
-def test_the_emergency_stop_is_pressed_by_its_topic_and_by_the_word(rig):
-    presses = rig.told.did.count("estop")
+@pytest.mark.parametrize("words", ["estop reset", "éstop reset", "\x1b[1mestop release"])
+def test_the_emergency_stop_is_pressed_by_its_topic_and_by_the_word(rig, words):
+    before, presses = len(rig.told.did), rig.told.did.count("estop")
     assert eventually(
         lambda: (rig.peer.send("estop", EMPTY, b"x"), rig.told.did.count("estop") > presses)[1]
     )
     presses = rig.told.did.count("estop")
 
     def pressed():
-        rig.peer.say("estop reset")  # undone where the robot is
+        rig.peer.say(words)  # undone where the robot is
         return rig.told.did.count("estop") > presses
 
     rig.until(pressed)
-    assert not any("reset" in one for one in rig.told.did)
+    assert not any("reset" in one or "release" in one for one in rig.told.did[before:])
 
 
 def test_a_velocity_is_handed_on_and_why_it_is_not_walked_is_told(rig):
@@ -369,6 +370,24 @@ def test_a_flood_is_bounded_and_a_stop_goes_past_it(rig):
     finally:
         rig.told.go_on.set()
     rig.until(lambda: not rig.orders._tasks)
+
+
+def test_what_waits_when_the_robot_is_stopped_is_about_that_stop(rig):
+    """A stop goes past the sentences before it: they are handed over after it, and not done."""
+    rig.told.go_on.clear()  # the executive is busy with a line
+    begun = len(rig.told.did)
+    try:
+        rig.orders.say("squat first")
+        assert eventually(lambda: not rig.orders._tasks)  # it is with the executive
+        rig.orders.say("squat later")
+        stops = rig.told.stops
+        rig.orders.press("stop")
+        assert eventually(lambda: rig.told.stops > stops)
+    finally:
+        rig.told.go_on.set()
+    assert eventually(lambda: any("later" in one for one in rig.told.did[begun:]))
+    (later,) = [one for one in rig.told.did[begun:] if "later" in one]
+    assert later == f"squat later ({stops})"  # as of before the stop: a shell does not read it
 
 
 def test_what_is_far_too_long_is_left_out(rig):

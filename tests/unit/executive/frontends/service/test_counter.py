@@ -63,6 +63,14 @@ def ask(place, request, *, heard=None):
     return ended, words
 
 
+@pytest.mark.parametrize("asked", [{"afar": True}, {"spoken": True}])
+@pytest.mark.parametrize("text", ["estop reset", "éstop reset", "\x1b[31mestop release"])
+def test_who_may_not_see_the_robot_undoes_no_emergency_stop(counter, told, place, asked, text):
+    ended, words = ask(place, m.Say(text=text, **asked))
+    assert (ended.status, told.did) == (ExitStatus.INVALID, [])
+    assert "at the robot" in words[0]
+
+
 @pytest.mark.parametrize(
     ("button", "did"),
     [
@@ -331,7 +339,7 @@ def test_a_stop_is_about_what_was_asked_for_before_it_and_arrived_after_it(count
 
 
 def test_what_a_stop_has_dropped_has_failed_and_was_understood(counter, told, place):
-    def dropped(text, *, stops):
+    def dropped(text, *, stops, afar):
         told.refused += 1
 
     told.line = dropped
