@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 
-from robot import config, patterns
 from robot.errors import ConfigError, Problem
+from robot.files import config, patterns
 from robot.model.description import Hand
 from robot.reality.truth import Check, Verdict
 from robot.se3 import SE3

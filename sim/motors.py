@@ -15,9 +15,9 @@ from collections.abc import Callable
 import mujoco
 import numpy as np
 
-from robot.config import nearest
 from robot.drivers.motor_bus import MotorCommand
 from robot.errors import DescriptionError, DriverError, Problem
+from robot.files.config import nearest
 from robot.model.description import RobotDescription
 from robot.se3 import Array
 from sim.flaws import JointFlaws

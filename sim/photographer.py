@@ -14,8 +14,8 @@ from robot.bus import topics
 from robot.bus.bus import Bus
 from robot.clock import Clock
 from robot.drivers.simulation.plant_sensors import emulated
+from robot.files.ordinary_files import write_ordinary
 from robot.messages import RgbdImage
-from robot.ordinary_files import write_ordinary
 from sim.camera.rgbd import RgbdCamera
 from sim.scene_memory import SceneMemory
 

@@ -14,7 +14,7 @@ from typing import Annotated, TypeAlias
 import msgspec
 from msgspec import Meta
 
-from robot import config
+from robot.files import config
 from robot.reality.faults import check_name
 
 FILE = Path(str(resources.files("sim"))) / "realities.yaml"

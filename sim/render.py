@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from robot.closing import Closing
 from robot.errors import ConfigError
-from robot.ordinary_files import write_ordinary
+from robot.files.ordinary_files import write_ordinary
 from robot.se3 import Vector3
 from sim.camera.by_rays import Tracer
 from sim.camera.flaws import to_bytes

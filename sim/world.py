@@ -5,8 +5,8 @@ from __future__ import annotations
 from importlib import resources
 from pathlib import Path
 
-from robot import config
 from robot.errors import ConfigError, Problem
+from robot.files import config
 from sim import world_reading
 from sim.world_schema import Room, World
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import msgspec
 
-from robot.config import MOST_PROBLEMS, nearest
+from robot.files.config import MOST_PROBLEMS, nearest
 from robot.messages import Place
 from sim import atlas, furniture
 from sim.footprint import Footprint, overlapping

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from robot.config import nearest
 from robot.errors import Problem
-from robot.yaml_nodes import Node, of_data, text_node
+from robot.files.config import nearest
+from robot.files.yaml_nodes import Node, of_data, text_node
 from sim.palette import COLORS
 from sim.things import catalogue
 from sim.things.making import MOST_VARIANT, made

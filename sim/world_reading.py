@@ -11,9 +11,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from robot import config, misfits, yaml_nodes
 from robot.errors import ConfigError, Problem
-from robot.yaml_nodes import Node, of_data, text_node
+from robot.files import config, misfits, yaml_nodes
+from robot.files.yaml_nodes import Node, of_data, text_node
 from sim import world_checks, world_kinds
 from sim.world_checks import Finding
 from sim.world_schema import World

@@ -11,7 +11,7 @@ from typing import Annotated, Literal
 import msgspec
 from msgspec import Meta
 
-from robot import quantities as q
+from robot.files import quantities as q
 
 Side = Literal["north", "east", "south", "west"]
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from intents.vocabulary import Names, Vocabulary
-from robot import plain_data
+from robot.files import plain_data
 
 SENTENCES = Path(__file__).with_name("sentences")
 _OPEN, _CLOSE = "⟦", "⟧"

@@ -21,13 +21,13 @@ from executive.missions import check, fault_plans
 from executive.missions.load import find
 from executive.runs import mission_assignment
 from executive.runs.task_run import Assignment
-from robot import config, yaml_nodes
 from robot.errors import ConfigError, Problem
 from robot.failures import CATALOGUE
+from robot.files import config, yaml_nodes
+from robot.files.yaml_nodes import Node
 from robot.messages import EyesBy, LocalisedBy
 from robot.reality import truth
 from robot.reality.contract import Reality
-from robot.yaml_nodes import Node
 
 SHIPPED = Path(__file__).parent / "campaign.yaml"
 RECOVERED = "recovered"

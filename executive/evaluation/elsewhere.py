@@ -15,11 +15,11 @@ import msgspec
 
 from executive.evaluation import campaign, roles
 from executive.evaluation.campaign import Campaign, Case, Settings
-from robot import config, yaml_nodes
 from robot.errors import ConfigError, Problem
-from robot.misfits import shown
+from robot.files import config, yaml_nodes
+from robot.files.misfits import shown
+from robot.files.yaml_nodes import Node
 from robot.reality.contract import Cast, Reality
-from robot.yaml_nodes import Node
 
 MOST_HOMES = 1000
 MOST_SEED = 999_999_999

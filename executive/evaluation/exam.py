@@ -19,11 +19,11 @@ import msgspec
 from msgspec import Meta
 
 from executive.evaluation.campaign import LIMIT_S, REFUSED, Case, Settings
-from robot import config, yaml_nodes
 from robot.errors import ConfigError, Problem
 from robot.failures import CATALOGUE
+from robot.files import config, yaml_nodes
+from robot.files.misfits import shown
 from robot.messages import WorldMap
-from robot.misfits import shown
 from robot.reality import truth
 
 LONG_S = 900.0

@@ -14,9 +14,9 @@ from msgspec import Meta
 from executive.evaluation.campaign import Run, key_of
 from executive.journal import holding
 from robot.closing import Closing
-from robot.config import nearest
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import open_ordinary, open_to_append
+from robot.files.config import nearest
+from robot.files.ordinary_files import open_ordinary, open_to_append
 
 FILE = "results.jsonl"
 MAX_BYTES = 500_000_000

@@ -11,7 +11,7 @@ from rich.table import Table
 
 from executive.evaluation.campaign import RECOVERED, Case
 from executive.evaluation.record import Record
-from robot.misfits import listed
+from robot.files.misfits import listed
 
 HEAD = ("case", "expected", "with recovery", "without", "robot time", "what else happened")
 

@@ -11,9 +11,9 @@ import re
 from collections.abc import Mapping
 from typing import Any, cast
 
-from robot.config import nearest
 from robot.errors import ConfigError
-from robot.yaml_nodes import MAX_BYTES, MAX_NODES, MAX_TEXT, Node, of_data, text_node
+from robot.files.config import nearest
+from robot.files.yaml_nodes import MAX_BYTES, MAX_NODES, MAX_TEXT, Node, of_data, text_node
 
 _ROLE = re.compile(r"\{([a-z]\w*)\}")
 

@@ -49,7 +49,7 @@ from executive.frontends.worlds import cli as worlds
 from robot import exit_status
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
-from robot.ordinary_files import write_ordinary
+from robot.files.ordinary_files import write_ordinary
 from robot.printable import is_printable, printable
 
 app = typer.Typer(

@@ -22,9 +22,9 @@ from executive.frontends.exit import last_words
 from executive.frontends.launching import new_folder
 from executive.frontends.options import Eval
 from executive.frontends.output import Screen, say, write_json
-from robot.config import nearest
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
+from robot.files.config import nearest
 
 WORLD = "kitchen"
 """Where a sentence of one's own is done if nothing else is said, as by `humanoid do`."""

@@ -10,9 +10,9 @@ import msgspec
 
 from executive.frontends.options import Eval
 from robot.errors import ConfigError, Problem
+from robot.files.ordinary_files import read_ordinary, write_ordinary
+from robot.files.plain_data import fitted, from_json
 from robot.messages import EyesBy, LocalisedBy
-from robot.ordinary_files import read_ordinary, write_ordinary
-from robot.plain_data import fitted, from_json
 
 FILE = "asked.json"
 LIMIT = 1_000_000

@@ -11,7 +11,7 @@ from rich.table import Table
 from executive.evaluation import homes_report, marks, report
 from executive.frontends.output import say, table_screen
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import write_ordinary
+from robot.files.ordinary_files import write_ordinary
 
 MAX_WIDTH = 1000
 """Of any table: how wide it would be is asked without a bound of the terminal."""

@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from robot import plain_data, users_own
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import read_secret
+from robot.files import plain_data, users_own
+from robot.files.ordinary_files import read_secret
 
 if TYPE_CHECKING:
     from intents.language_model import Key

@@ -7,9 +7,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from robot import plain_data
 from robot.errors import ConfigError, Problem
-from robot.yaml_nodes import read_text
+from robot.files import plain_data
+from robot.files.yaml_nodes import read_text
 
 if TYPE_CHECKING:
     from intents.language_model import LanguageModel

@@ -10,7 +10,7 @@ from executive.frontends.output import say
 from executive.journal import journal, motion, sensed
 from robot import shots
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import make_below, write_ordinary
+from robot.files.ordinary_files import make_below, write_ordinary
 
 
 def refuse_taken(path: Path) -> None:

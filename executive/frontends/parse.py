@@ -19,9 +19,9 @@ from intents.outcomes import Goals, Outcome, Question, to_record
 from intents.parser import hear
 from intents.vocabulary import Names, Vocabulary
 from intents.wording import in_words
-from robot import plain_data
 from robot.errors import ConfigError, Problem, shortened
-from robot.yaml_nodes import read_text
+from robot.files import plain_data
+from robot.files.yaml_nodes import read_text
 
 MAX_NAMES = 200_000
 """Bytes of a vocabulary; of its names, see `intents.vocabulary.MOST_NAMES`."""

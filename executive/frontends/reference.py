@@ -14,11 +14,11 @@ from executive.engine import health_monitor
 from executive.evaluation.campaign import SHIPPED, Campaign, read
 from executive.trees.recovery import PER_STEP, PER_TASK, RULES
 from executive.trees.remedies import ASKING, HELP, REMEDIES, STEP_BACK_M, WAIT_S
-from robot import config
 from robot.bringup import safety
 from robot.bus.topics import BY_NAME
 from robot.exit_status import BROKEN_CODES, MEANINGS
 from robot.failures import CATALOGUE
+from robot.files import config
 
 MARKS = "<!-- table: {name} -->", "<!-- end -->"
 

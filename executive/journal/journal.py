@@ -26,7 +26,7 @@ from executive.journal import holding
 from executive.journal.files import BackgroundFile, LineFile, Lines, is_open
 from robot.closing import Closing
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import open_ordinary
+from robot.files.ordinary_files import open_ordinary
 
 FILE, WALL_FILE = "journal.jsonl", "wall.jsonl"
 CAPACITY = 20_000

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import msgspec
 
-from robot.ordinary_files import open_ordinary
+from robot.files.ordinary_files import open_ordinary
 from robot.se3 import SE3
 
 FILE = "motion.jsonl"

@@ -16,11 +16,11 @@ from executive.journal import journal, reader
 from executive.journal.journal import FILE, WALL_FILE
 from executive.journal.places import HERE, all_places, outside
 from executive.journal.run import Run
-from robot import misfits
-from robot import quantities as q
-from robot.config import nearest
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import open_ordinary, read_ordinary
+from robot.files import misfits
+from robot.files import quantities as q
+from robot.files.config import nearest
+from robot.files.ordinary_files import open_ordinary, read_ordinary
 from robot.printable import printable_line
 
 T = TypeVar("T")

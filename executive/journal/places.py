@@ -10,8 +10,8 @@ from pathlib import Path
 
 import msgspec
 
-from robot.ordinary_files import read_ordinary, write_ordinary
-from robot.user_state import user_state_folder
+from robot.files.ordinary_files import read_ordinary, write_ordinary
+from robot.files.user_state import user_state_folder
 
 HERE = Path("runs")
 NAMED = 40

@@ -23,8 +23,8 @@ from intents.grounding import (
     ground,
 )
 from intents.relations import Viewpoint
-from robot.config import nearest
 from robot.failures import Failure, failure
+from robot.files.config import nearest
 from robot.messages import ObjectInfo, PersonInfo, Place
 
 HANDS = 2

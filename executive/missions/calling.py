@@ -10,9 +10,9 @@ from executive.missions.load import Mission, load
 from executive.missions.names import Names
 from executive.missions.problems import Problems
 from executive.missions.values import Bound, Scope, bind
-from robot.config import nearest
 from robot.errors import ConfigError
-from robot.yaml_nodes import Node, text_node
+from robot.files.config import nearest
+from robot.files.yaml_nodes import Node, text_node
 
 MAX_CALLS = 16
 """Missions inside missions."""

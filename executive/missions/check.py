@@ -22,13 +22,13 @@ from executive.missions.schema import ROBOT
 from executive.missions.values import Bound
 from executive.trees.build import before
 from executive.trees.parts import Part, Series, walk
-from robot.config import nearest
 from robot.errors import ConfigError, Problem
-from robot.misfits import closest
+from robot.files.config import nearest
+from robot.files.misfits import closest
+from robot.files.yaml_nodes import Node, parse, text_node
 from robot.model import description
 from robot.model.body import BodyModel
 from robot.reality.contract import Reality
-from robot.yaml_nodes import Node, parse, text_node
 
 
 class Options(msgspec.Struct, frozen=True, kw_only=True):

@@ -29,10 +29,10 @@ from executive.skills.resources import conflicts, needed_by
 from executive.trees import parts as p
 from executive.trees.build import ANY
 from intents import goals
-from robot.config import nearest
 from robot.failures import CATALOGUE
+from robot.files.config import nearest
+from robot.files.yaml_nodes import Node, text_node
 from robot.model.description import RobotDescription
-from robot.yaml_nodes import Node, text_node
 
 MAX_STEPS = 20_000
 

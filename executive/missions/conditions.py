@@ -15,9 +15,9 @@ from executive.missions.reading import Reader
 from executive.missions.values import Scope
 from executive.trees.parts import Finding, Words
 from intents import goals
+from robot.files.yaml_nodes import Node, text_node
 from robot.messages import ObjectInfo, Place
 from robot.se3 import SE3
-from robot.yaml_nodes import Node, text_node
 
 NEAR_M = 0.9
 """How far from the edge of a piece of furniture the robot stands when it is "at" it."""

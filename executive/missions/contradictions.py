@@ -11,7 +11,7 @@ from executive.meaning.identify import Scene
 from executive.missions.names import Names
 from executive.missions.problems import Problems
 from intents import goals
-from robot.yaml_nodes import Node
+from robot.files.yaml_nodes import Node
 
 Fact: TypeAlias = tuple[str, ...]
 """Something that is so: ("holding",), ("holding", cup), ("on", cup, table), or any condition."""

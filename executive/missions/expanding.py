@@ -13,8 +13,8 @@ from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.schema import ForEachStep
 from executive.missions.values import Bound, Scope
+from robot.files.yaml_nodes import Node, text_node
 from robot.reality.contract import Reality
-from robot.yaml_nodes import Node, text_node
 
 
 def expanded(path: Path, reality: Reality) -> dict[str, Any]:

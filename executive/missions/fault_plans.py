@@ -20,10 +20,10 @@ import msgspec
 import numpy as np
 from msgspec import Meta
 
-from robot import plain_data
-from robot import quantities as q
 from robot.errors import ConfigError, Problem
-from robot.misfits import shown
+from robot.files import plain_data
+from robot.files import quantities as q
+from robot.files.misfits import shown
 from robot.model.description import RobotDescription
 from robot.reality import faults
 from robot.reality.contract import World

@@ -10,8 +10,8 @@ import msgspec
 from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.schema import MissionRecord, ParameterRecord
-from robot import config
-from robot.yaml_nodes import Node, parse, read_text, text_node
+from robot.files import config
+from robot.files.yaml_nodes import Node, parse, read_text, text_node
 
 SUFFIX = ".yaml"
 _PACKED, _BESIDE = Path(__file__).with_name("samples"), Path(__file__).parents[2] / "missions"

@@ -13,9 +13,9 @@ from executive.missions.problems import Problems
 from intents import goals, parser
 from intents.context import Context
 from intents.outcomes import Goals, Question
-from robot.config import nearest
 from robot.errors import Problem
-from robot.yaml_nodes import Node
+from robot.files.config import nearest
+from robot.files.yaml_nodes import Node
 
 T = TypeVar("T")
 

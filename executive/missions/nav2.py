@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import Any
 
 from executive.missions.problems import Enough, Problems
+from robot.files.yaml_nodes import Node, dump, read
 from robot.se3 import SE3
-from robot.yaml_nodes import Node, dump, read
 
 UPRIGHT_RAD = math.radians(5.0)
 """More than that a waypoint may not lean: nobody walks on a wall."""

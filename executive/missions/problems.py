@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from robot.errors import ConfigError, Problem
-from robot.yaml_nodes import Node
+from robot.files.yaml_nodes import Node
 
 ENOUGH = 100
 """More problems than that are not collected: nobody reads on."""

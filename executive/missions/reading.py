@@ -12,9 +12,9 @@ from msgspec import inspect as types
 
 from executive.missions.problems import Problems
 from executive.missions.schema import Record
-from robot.config import nearest
-from robot.type_words import in_words
-from robot.yaml_nodes import Node
+from robot.files.config import nearest
+from robot.files.type_words import in_words
+from robot.files.yaml_nodes import Node
 
 BEYOND = 1e9
 """Numbers of that size and more mean nothing here."""

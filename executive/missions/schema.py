@@ -16,7 +16,7 @@ from msgspec import Meta
 from executive.skills.navigate import MAX_DISPLACEMENT_M, MAX_TURN_RAD
 from executive.skills.parameters import MAX_DURATION_S
 from intents import goals
-from robot.yaml_nodes import Node
+from robot.files.yaml_nodes import Node
 
 Parameter: TypeAlias = Annotated[
     str, Meta(pattern=r"^\{\{ *[a-z][a-z0-9_]* *\}\}$", description="A parameter of the mission.")

@@ -12,7 +12,7 @@ from executive.missions import schema as s
 from executive.missions.names import Names
 from executive.missions.problems import Problems
 from intents import goals
-from robot.yaml_nodes import Node, text_node
+from robot.files.yaml_nodes import Node, text_node
 
 
 class Missing(Exception):

@@ -15,8 +15,8 @@ import msgspec
 from executive.missions.names import Names
 from executive.missions.problems import Problems
 from executive.missions.schema import ParameterRecord, ParameterType
-from robot.config import nearest
-from robot.yaml_nodes import MAX_TEXT, Node, Scalar, text_node
+from robot.files.config import nearest
+from robot.files.yaml_nodes import MAX_TEXT, Node, Scalar, text_node
 
 PLACEHOLDER = re.compile(r"\{\{ *+((?:[^{} ]++| ++(?!\}))*+) *+\}\}")
 """Two braces, and what stands within; nothing is tried twice, however many blanks there are."""

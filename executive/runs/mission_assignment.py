@@ -22,8 +22,8 @@ from executive.missions.fault_plans import FaultPlan
 from executive.runs.run_folder import MISSIONS
 from executive.runs.task_run import Assignment
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import is_within, make_below, read_ordinary, write_ordinary
-from robot.yaml_nodes import MAX_BYTES
+from robot.files.ordinary_files import is_within, make_below, read_ordinary, write_ordinary
+from robot.files.yaml_nodes import MAX_BYTES
 
 
 def assignment(checked: Checked, options: Options, *, path: str) -> Assignment:

@@ -20,9 +20,9 @@ from executive.runs import provenance
 from executive.runs.provenance import Origin
 from executive.runs.runtimes import Setup
 from robot.errors import ConfigError, Problem
+from robot.files.ordinary_files import is_within, make_below, read_ordinary, write_ordinary
+from robot.files.yaml_nodes import MAX_BYTES
 from robot.messages import EyesBy, LocalisedBy
-from robot.ordinary_files import is_within, make_below, read_ordinary, write_ordinary
-from robot.yaml_nodes import MAX_BYTES
 
 MISSIONS = "missions"
 """Folder in that of a run: the mission files that its jobs are made from."""

@@ -13,7 +13,7 @@ from pathlib import Path
 import robot
 from robot.bringup.processes import Process
 from robot.clock import Clock
-from robot.ordinary_files import open_to_append
+from robot.files.ordinary_files import open_to_append
 
 POLL_S = 0.01
 # Deaths come in groups, and until the next spare is loaded one more lets the robot fall. Not at

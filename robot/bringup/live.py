@@ -24,10 +24,10 @@ from robot.closing import Closing
 from robot.drivers import registry
 from robot.errors import BusError, ConfigError, ProcessError
 from robot.failures import Failure, failure
+from robot.files.ordinary_files import write_ordinary
 from robot.link import BusLink
 from robot.messages import LoopTiming
 from robot.model import description
-from robot.ordinary_files import write_ordinary
 from robot.reality.contract import World
 from robot.reality.faults import FAULT, Fault, Kill
 

@@ -25,7 +25,7 @@ from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.motor_map import MotorMap
 from robot.drivers.motors.mounting import Mounted
 from robot.errors import ConfigError, DriverError, Problem
-from robot.misfits import nearest
+from robot.files.misfits import nearest
 
 M = TypeVar("M", bound=MotorMap)
 

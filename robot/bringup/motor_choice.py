@@ -14,7 +14,7 @@ from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.motor_map import MotorMap
 from robot.drivers.registry import CAN, MOTORS
 from robot.errors import ConfigError, Problem
-from robot.misfits import nearest
+from robot.files.misfits import nearest
 from robot.model.description import RobotDescription
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from robot import yaml_nodes
 from robot.bringup import can_tools, servo_tools
 from robot.bringup.motor_family import M, MotorFamily
 from robot.drivers.motors.can import joint_map as can_map
@@ -17,6 +16,7 @@ from robot.drivers.motors.dynamixel import load as servo_load
 from robot.drivers.motors.dynamixel.driver import DynamixelMotors
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
 from robot.drivers.registry import CAN, DYNAMIXEL
+from robot.files import yaml_nodes
 
 FAMILIES: tuple[MotorFamily[Any, Any], ...] = (
     MotorFamily(

@@ -13,7 +13,7 @@ from robot.clock import Clock
 from robot.closing import Closing
 from robot.errors import ProcessError
 from robot.failures import Failure, failure
-from robot.ordinary_files import make_below, open_ordinary, write_ordinary
+from robot.files.ordinary_files import make_below, open_ordinary, write_ordinary
 
 LOG_TAIL_BYTES = 4096
 

@@ -11,7 +11,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
-from robot import config, yaml_nodes
 from robot.bus import topics
 from robot.bus.topics import Topic
 from robot.drivers.body_sample import ForceReading, ImuReading
@@ -19,6 +18,7 @@ from robot.drivers.motor_bus import MotorBus
 from robot.drivers.sensor_source import SensorSource
 from robot.drivers.wiring import Wiring
 from robot.errors import ConfigError
+from robot.files import config, yaml_nodes
 from robot.messages import DepthImage, LidarScan, PowerState, RgbdImage
 from robot.model.description import Battery, Camera, Imu, Lidar, RobotDescription
 

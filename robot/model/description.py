@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, get_args
 
 import msgspec
 
-from robot import config
-from robot import quantities as q
 from robot.errors import ConfigError, DescriptionError, Problem
+from robot.files import config
+from robot.files import quantities as q
 from robot.messages import Side
 from robot.model.gait import Balance, Walking
 from robot.model.handling import Arms, Handling, Signs

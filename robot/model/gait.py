@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import msgspec
 
-from robot import quantities as q
+from robot.files import quantities as q
 
 
 class Catching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -6,7 +6,7 @@ from typing import Literal
 
 import msgspec
 
-from robot import quantities as q
+from robot.files import quantities as q
 
 
 class Keyframe(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -15,9 +15,9 @@ import msgspec
 import mujoco
 
 from robot.errors import DescriptionError, Problem
+from robot.files.ordinary_files import read_ordinary
 from robot.model import mjcf_files
 from robot.model.mjcf_files import MAX_XML_BYTES
-from robot.ordinary_files import read_ordinary
 
 SETTINGS = frozenset({"option", "compiler", "inertial"})
 """Elements that an overlay changes rather than repeats."""

@@ -16,7 +16,7 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 from robot.errors import DescriptionError, Problem
-from robot.ordinary_files import is_within, open_ordinary, read_ordinary
+from robot.files.ordinary_files import is_within, open_ordinary, read_ordinary
 from robot.printable import printable
 
 MAX_XML_BYTES = 20_000_000

@@ -25,7 +25,7 @@ from msgspec import Meta
 
 import robot
 from robot.errors import DescriptionError, Problem
-from robot.misfits import misfits
+from robot.files.misfits import misfits
 from robot.model import mjcf
 from robot.printable import printable
 

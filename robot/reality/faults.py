@@ -14,11 +14,11 @@ from typing import Any, Literal, get_args
 
 import msgspec
 
-from robot import misfits
-from robot import quantities as q
 from robot.bus.topics import Topic
-from robot.config import nearest
 from robot.errors import ConfigError, Problem
+from robot.files import misfits
+from robot.files import quantities as q
+from robot.files.config import nearest
 from robot.se3 import SE3
 
 

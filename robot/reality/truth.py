@@ -18,10 +18,10 @@ from typing import Annotated, Any
 import msgspec
 from msgspec import Meta
 
-from robot import config, patterns
 from robot.errors import ConfigError, Problem
+from robot.files import config, patterns
+from robot.files.misfits import misfits, shown
 from robot.messages import WorldMap
-from robot.misfits import misfits, shown
 
 FORMS: dict[frozenset[str], float | None] = {
     frozenset({"object", "on"}): None,
@@ -58,7 +58,7 @@ class Check(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
         visited: rooms that it was in, in this order, others between them.
         passed: people whom it was near, in this order.
         passed_at: a point of the floor [m] that it was at.
-        said: a regular expression (`robot.patterns`) that something it said aloud contains.
+        said: a regular expression (`robot.files.patterns`) that something it said aloud contains.
         any: checks of which one is enough.
         within_m: the distance that counts, between centres.
     """

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 
 from robot.errors import Problem
-from robot.misfits import nearest
+from robot.files.misfits import nearest
 
 
 def unknown(

@@ -9,8 +9,8 @@ from typing import Literal
 
 import msgspec
 
-from robot import config
 from robot.errors import ConfigError, Problem
+from robot.files import config
 from robot.se3 import Vector3
 
 Form = Literal["corridor", "grid", "enfilade", "open", "store"]

@@ -14,8 +14,8 @@ from typing import Literal
 
 import msgspec
 
-from robot import config
 from robot.errors import ConfigError, Problem
+from robot.files import config
 
 Point = tuple[float, float]
 Style = Literal["brand", "stripes", "dots", "rings"]

@@ -15,8 +15,8 @@ from executive.frontends.settings import files
 from executive.missions import values
 from intents import letters
 from intents.language_model import peeling
-from robot import yaml_nodes
 from robot.errors import ConfigError
+from robot.files import yaml_nodes
 from robot.model import mjcf_files
 from robot.printable import printable_line
 

@@ -13,7 +13,7 @@ from intents.english.paraphrase.paraphrasing import ASK, NOTHING
 from intents.outcomes import Goals
 from intents.parser import first_look
 from intents.vocabulary import Names, Vocabulary
-from robot import plain_data
+from robot.files import plain_data
 from training.marked import Marked
 from training.paraphrase.plain_words import plainly
 

@@ -21,7 +21,7 @@ import msgspec
 import robot
 from executive.frontends.console.address import HOST, Address, url
 from executive.frontends.output import say
-from robot.ordinary_files import make_below, open_to_append, read_secret
+from robot.files.ordinary_files import make_below, open_to_append, read_secret
 
 FILE = "console.json"
 MAX_BYTES = 4096

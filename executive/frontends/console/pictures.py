@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 from robot import shots
-from robot.ordinary_files import open_ordinary
+from robot.files.ordinary_files import open_ordinary
 
 CHUNK = 1 << 20
 """Bytes read at a time."""

@@ -20,7 +20,7 @@ import msgspec
 from executive.frontends.console.desk import FILE, OF, SOCKET, Of, Order, Place, of
 from executive.frontends.console.pace import is_cry
 from robot.bringup import mailbox
-from robot.ordinary_files import read_secret
+from robot.files.ordinary_files import read_secret
 
 AGAIN_S = 0.3
 TAKE_OVER_S = 60.0

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import BinaryIO
 
-from robot.ordinary_files import open_ordinary
+from robot.files.ordinary_files import open_ordinary
 
 CHUNK = 1 << 20
 """Bytes read at a time, so that a long file holds nobody up."""

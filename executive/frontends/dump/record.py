@@ -21,7 +21,7 @@ from executive.journal import journal, past_runs
 from robot.clock import WallClock
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
-from robot.ordinary_files import make_below, open_to_append
+from robot.files.ordinary_files import make_below, open_to_append
 
 MODULE = "executive.frontends.dump.record"
 NAME = "recorded"

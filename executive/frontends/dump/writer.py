@@ -24,9 +24,9 @@ from executive.journal.snapshot import come_to_rest
 from executive.journal.why import why
 from executive.runs.task_run import Progress, Show
 from robot.closing import Closing
-from robot.config import nearest
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import write_ordinary
+from robot.files.config import nearest
+from robot.files.ordinary_files import write_ordinary
 
 On = Literal["tick", "change", "failure", "end"]
 MOST_FILES = 20_000

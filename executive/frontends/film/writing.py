@@ -13,7 +13,7 @@ from PIL import Image, ImageColor
 
 from executive.frontends.film.pictures import Frame
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import write_ordinary
+from robot.files.ordinary_files import write_ordinary
 
 
 class Kind(msgspec.Struct, frozen=True, kw_only=True):

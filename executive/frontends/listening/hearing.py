@@ -29,7 +29,7 @@ from intents.vocabulary import Vocabulary
 from intents.wording import in_words
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
-from robot.ordinary_files import open_ordinary
+from robot.files.ordinary_files import open_ordinary
 
 if TYPE_CHECKING:
     from intents.speech.dictation import Dictation

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from robot.misfits import nearest, shown
+from robot.files.misfits import nearest, shown
 
 
 def nothing() -> Iterable[str]:

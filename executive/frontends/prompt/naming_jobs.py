@@ -20,7 +20,7 @@ from intents.outcomes import Goals
 from intents.parser import hear
 from intents.swaps import speaks_of
 from intents.vocabulary import Vocabulary
-from robot.misfits import listed
+from robot.files.misfits import listed
 
 SHOWS = "`goals` shows them."
 BEGUN = (

@@ -16,7 +16,7 @@ from executive.frontends.prompt.robot import AtWork
 from executive.meaning.request import Understood
 from executive.trees.parts import errands
 from intents.goals import Goal
-from robot.misfits import listed
+from robot.files.misfits import listed
 from robot.se3 import SE3
 
 

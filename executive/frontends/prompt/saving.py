@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from executive.meaning.request import Setting
-from robot import yaml_nodes
 from robot.errors import ConfigError
-from robot.ordinary_files import write_ordinary
+from robot.files import yaml_nodes
+from robot.files.ordinary_files import write_ordinary
 
 HEAD = "# What was done at the prompt. `humanoid mission check` says whether it still fits.\n"
 

@@ -14,8 +14,8 @@ from executive.meaning.robot_state import state_of
 from executive.meaning.tasks import SKILLS
 from intents.relations import Viewpoint
 from intents.state import RobotState
+from robot.files.misfits import listed
 from robot.link import BodyLink
-from robot.misfits import listed
 
 
 def robot_state(executive: Executive, link: BodyLink, knowledge: Knowledge) -> RobotState:

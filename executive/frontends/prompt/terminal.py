@@ -36,7 +36,7 @@ from executive.frontends.prompt.toolbar import STYLES, toolbar
 from intents.letters import without_sequences
 from intents.stopping import is_stay, is_stop
 from robot.errors import RobotError
-from robot.user_state import user_state_folder
+from robot.files.user_state import user_state_folder
 
 REFRESH_S = 0.2
 PANEL_SHARE = 0.5

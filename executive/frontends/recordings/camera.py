@@ -11,11 +11,11 @@ from executive.frontends.output import say, table_screen, write_json
 from executive.frontends.recordings.progress import counted
 from robot.errors import ConfigError
 from robot.exit_status import ExitStatus
-from robot.ordinary_files import write_ordinary
+from robot.files.ordinary_files import write_ordinary
+from robot.files.pictures import pictures_in
 from robot.perception.calibration.board import read_board
 from robot.perception.calibration.camera_info import camera_info
 from robot.perception.calibration.intrinsics import Camera, calibrate
-from robot.pictures import pictures_in
 
 
 def calibrate_camera(

@@ -8,8 +8,8 @@ from pathlib import Path
 from executive.frontends.output import say, write_json
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
+from robot.files.pictures import read_colour
 from robot.perception.detector.detector import Detection, Detector
-from robot.pictures import read_colour
 
 NONE_YET = "no model for detection comes along with this software yet"
 CURE = (

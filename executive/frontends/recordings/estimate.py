@@ -14,11 +14,11 @@ from executive.frontends.new_files import refuse_inputs
 from executive.frontends.output import Screen, say, write_json
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
+from robot.files.ordinary_files import write_ordinary
 from robot.fusion.state_estimator import legged_body, legged_log, replay, urdf_chains
 from robot.fusion.state_estimator.legged_body import LeggedBody
 from robot.fusion.state_estimator.legged_log import LeggedLog
 from robot.fusion.state_estimator.replay import Trajectory
-from robot.ordinary_files import write_ordinary
 from robot.se3 import SE3
 
 

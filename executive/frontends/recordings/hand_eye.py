@@ -11,13 +11,13 @@ from executive.frontends.output import say, table_screen, write_json
 from executive.frontends.recordings.progress import counted
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
+from robot.files.pictures import pictures_in
 from robot.perception.calibration.board import read_board
 from robot.perception.calibration.camera_info import read_camera_info
 from robot.perception.calibration.hand_eye import Mounting, inverse, mounting
 from robot.perception.calibration.intrinsics import explain
 from robot.perception.calibration.poses import read_poses
 from robot.perception.calibration.views import find_views
-from robot.pictures import pictures_in
 from robot.se3 import SE3
 
 

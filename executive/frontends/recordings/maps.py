@@ -12,10 +12,10 @@ from executive.frontends.new_files import refuse_inputs
 from executive.frontends.output import say, write_json
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
+from robot.files.ordinary_files import write_ordinary
 from robot.fusion.slam import building, map_file, picture, recording
 from robot.fusion.slam.recording import Recording
 from robot.fusion.slam.relocalising import Relocaliser
-from robot.ordinary_files import write_ordinary
 from robot.printable import printable_line
 from robot.se3 import Array
 

@@ -20,9 +20,9 @@ from executive.frontends.view import PICTURES
 from executive.meaning.request import setting
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
+from robot.files.ordinary_files import write_ordinary
 from robot.messages import RgbdImage
 from robot.model.description import RobotDescription
-from robot.ordinary_files import write_ordinary
 from robot.reality.contract import Plant
 from robot.reality.studio import Renderer
 from robot.se3 import SE3

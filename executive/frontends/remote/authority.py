@@ -22,8 +22,8 @@ from msgspec import Meta
 
 from executive.frontends.remote.invitation import SERVER_NAME, Invitation, Role, load_chain
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import read_secret, write_ordinary
-from robot.user_state import user_state_folder
+from robot.files.ordinary_files import read_secret, write_ordinary
+from robot.files.user_state import user_state_folder
 
 if TYPE_CHECKING:
     from cryptography import x509

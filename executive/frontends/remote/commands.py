@@ -22,7 +22,7 @@ from executive.frontends.remote.relay import Relay
 from executive.frontends.service import place as places
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
-from robot.ordinary_files import write_ordinary
+from robot.files.ordinary_files import write_ordinary
 
 DEFAULT_PORT = 7450
 BACKLOG = 64

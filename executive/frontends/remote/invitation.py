@@ -15,7 +15,7 @@ import msgspec
 from msgspec import Meta
 
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import read_secret
+from robot.files.ordinary_files import read_secret
 
 Role = Literal["watch", "command", "stop"]
 ROLES: dict[Role, str] = {

@@ -24,7 +24,7 @@ from executive.frontends.since_boot import process_began_s
 from intents.stopping import is_stop
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
-from robot.ordinary_files import read_ordinary
+from robot.files.ordinary_files import read_ordinary
 
 DOWN_S = 40.0
 """So long a robot may take to come to a stand and end."""

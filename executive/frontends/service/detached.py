@@ -23,7 +23,7 @@ from executive.frontends.output import Screen, say, tell_of_mistakes
 from executive.frontends.service import place as places
 from executive.frontends.service.options import Up
 from robot.exit_status import ExitStatus
-from robot.ordinary_files import read_ordinary
+from robot.files.ordinary_files import read_ordinary
 
 MODULE = "executive.frontends.service.detached"
 LOOK_S = 0.05

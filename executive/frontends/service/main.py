@@ -31,7 +31,7 @@ from executive.frontends.service.telling import Log
 from executive.journal.journal import Event
 from robot.bringup.mailbox import Handle
 from robot.exit_status import ExitStatus
-from robot.ordinary_files import open_to_append
+from robot.files.ordinary_files import open_to_append
 
 POLL_S = 0.1
 REST_S = 15.0

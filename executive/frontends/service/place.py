@@ -31,8 +31,8 @@ import msgspec
 
 from executive.frontends.line_server import is_own
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import read_secret, write_ordinary
-from robot.user_state import user_state_folder
+from robot.files.ordinary_files import read_secret, write_ordinary
+from robot.files.user_state import user_state_folder
 
 SOCKET, RUNNING, LOG = "service.sock", "service.json", "up.log"
 DEFAULT_NAME = "robot"

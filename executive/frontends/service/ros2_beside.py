@@ -21,7 +21,7 @@ import robot
 from executive.frontends.service.ros2_plan import Plan
 from robot.closing import Closing
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import make_below, open_to_append
+from robot.files.ordinary_files import make_below, open_to_append
 
 MODULE = "executive.frontends.ros2.main"
 LOG = "ros2.log"

@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 from executive.journal.files import BackgroundFile
-from robot.ordinary_files import make_below
+from robot.files.ordinary_files import make_below
 from robot.printable import printable_line
 
 LOG = "service.log"

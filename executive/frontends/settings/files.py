@@ -33,10 +33,10 @@ from msgspec import Meta
 
 from executive.frontends import keys
 from executive.frontends.options import MOST_SEED
-from robot import config, plain_data
 from robot.errors import ConfigError, Problem
+from robot.files import config, plain_data
+from robot.files.ordinary_files import is_within, open_ordinary
 from robot.messages import EyesBy, LocalisedBy
-from robot.ordinary_files import is_within, open_ordinary
 
 PROJECT = Path("humanoid.toml")
 MAX_BYTES = 64_000
@@ -95,7 +95,7 @@ class User(Project, frozen=True, kw_only=True, forbid_unknown_fields=True):
     voice_model: Name | None = None
     model: Name | None = None
     devices: Annotated[tuple[Name, ...], Meta(max_length=MOST_WORDS)] | None = None
-    """That drivers of robots may open (`robot.users_own`)."""
+    """That drivers of robots may open (`robot.files.users_own`)."""
     hooks: Hooks = Hooks()
 
 

@@ -15,7 +15,7 @@ from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.schema import STEPS
 from robot.errors import ConfigError, Problem
-from robot.yaml_nodes import Node, of_data
+from robot.files.yaml_nodes import Node, of_data
 
 STUB = "a step"
 _INSIDE = ("do", "then", "else", "always", "parallel", "on_fail")

@@ -15,9 +15,9 @@ from executive.missions.btcpp.nodes import Importer
 from executive.missions.btcpp.steps import Step, fields, flat
 from executive.missions.btcpp.xml import Allowance, Element, read
 from executive.missions.problems import Enough, Problems
-from robot import yaml_nodes
-from robot.config import nearest
 from robot.errors import ConfigError
+from robot.files import yaml_nodes
+from robot.files.config import nearest
 
 
 def mission_of(path: Path) -> str:

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from executive.missions.btcpp.xml import Allowance, Element, read
 from executive.missions.problems import Problems
-from robot.config import nearest
 from robot.errors import ConfigError
+from robot.files.config import nearest
 
 PASSED_OVER = ("TreeNodesModel", "include")
 

@@ -10,8 +10,8 @@ from typing import Any, cast
 import msgspec
 
 from executive.missions.btcpp.xml import Element
-from robot.config import load, nearest
-from robot.yaml_nodes import resolve
+from robot.files.config import load, nearest
+from robot.files.yaml_nodes import resolve
 
 TEXTS = ("object", "person", "place", "on", "in", "to", "at", "", "mode", "side")
 """Slots whose values stay texts, also where they look like numbers."""

@@ -27,8 +27,8 @@ from executive.missions.btcpp.xml import MAX_DEPTH, Element
 from executive.missions.compiling import MAX_STEPS
 from executive.missions.problems import Enough, Problems
 from executive.missions.schema import MAX_ROUNDS, MAX_TRIES
-from robot.config import nearest
 from robot.errors import ConfigError
+from robot.files.config import nearest
 
 MAX_RECOVERIES = 5
 """In one another; what is in them is written out two to that power times."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from executive.missions.btcpp.steps import Ports
 from executive.missions.btcpp.xml import Element
-from robot.config import nearest
+from robot.files.config import nearest
 
 AUTOREMAP = ("_autoremap", "__autoremap", "__shared_blackboard")
 OLDER: dict[str, str] = {

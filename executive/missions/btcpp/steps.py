@@ -9,8 +9,8 @@ from typing import Any, TypeAlias, cast
 import msgspec
 
 from executive.missions.btcpp.xml import Element
-from robot import plain_data
-from robot.yaml_nodes import resolve
+from robot.files import plain_data
+from robot.files.yaml_nodes import resolve
 
 Step: TypeAlias = Any
 Ports: TypeAlias = dict[str, str]

@@ -10,8 +10,8 @@ from executive.missions.btcpp.nodes import KINDS, NODES
 from executive.missions.btcpp.ports import OLDER
 from executive.missions.btcpp.xml import Element
 from executive.missions.problems import Problems
-from robot.config import nearest
 from robot.errors import ConfigError
+from robot.files.config import nearest
 
 
 def look_at(

@@ -6,8 +6,8 @@ from pathlib import Path
 from xml.parsers import expat
 
 from robot.errors import ConfigError, Problem
+from robot.files.yaml_nodes import read_text
 from robot.printable import is_printable, printable
-from robot.yaml_nodes import read_text
 
 MAX_DEPTH = 100
 MAX_ELEMENTS = 50_000

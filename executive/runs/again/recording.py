@@ -23,8 +23,8 @@ from executive.runs.run_folder import Header
 from executive.runs.task_run import Assignment
 from intents import goals
 from robot.errors import ConfigError, Problem
-from robot.misfits import misfits
-from robot.ordinary_files import is_within, read_ordinary
+from robot.files.misfits import misfits
+from robot.files.ordinary_files import is_within, read_ordinary
 from robot.reality.contract import Reality
 
 

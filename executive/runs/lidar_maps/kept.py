@@ -16,9 +16,9 @@ import msgspec
 
 from executive.meaning.request import Setting
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import make_below
+from robot.files.ordinary_files import make_below
+from robot.files.user_state import user_cache_folder
 from robot.printable import printable
-from robot.user_state import user_cache_folder
 
 SHIPPED = Path(__file__).parent / "shipped"
 WAY = "led walk 1"

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import msgspec
 
-from robot.config import load
+from robot.files.config import load
 from robot.messages import ObjectInfo, Place, WorldMap
 
 _WORD = re.compile(r"[^\W\d_]+")

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot.errors import DriverError
-from robot.ordinary_files import open_ordinary
+from robot.files.ordinary_files import open_ordinary
 
 INSTALL = "pip install 'humanoid-executive[vision]'"
 Pixels = NDArray[np.uint8]
@@ -46,7 +46,7 @@ class Capture:
         """Open a camera, asking it for pictures of a size (it may have others).
 
         Args:
-            device: `/dev/video0`, which the user lets robots open (`robot.users_own`).
+            device: `/dev/video0`, which the user lets robots open (`robot.files.users_own`).
             width: of the pictures [px].
             height: of the pictures [px].
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from robot.drivers.camera.capture import Pixels
 from robot.errors import ConfigError, DriverError
-from robot.ordinary_files import is_within
-from robot.pictures import read_colour
+from robot.files.ordinary_files import is_within
+from robot.files.pictures import read_colour
 
 NUMBER = re.compile(r"%0?([1-9])?d")
 FIRST = (0, 1)

@@ -16,14 +16,14 @@ from typing import Protocol, Self
 
 import msgspec
 
-from robot import config, users_own
-from robot import quantities as q
 from robot.clock import Clock
 from robot.closing import Closing
 from robot.drivers.camera.librealsense import Frame, Lens, RealSense
 from robot.drivers.sensor_source import SensorSource
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
+from robot.files import config, users_own
+from robot.files import quantities as q
 from robot.messages import RgbdImage
 from robot.model.description import Camera
 

@@ -6,7 +6,7 @@ Which one stands in `uvc.yaml` beside the robot's description:
     rate_hz: 30              # of a film or of numbered pictures; a device has its own
 
 That file may be a stranger's. What it names under `/dev` is opened where the user's own file lets
-robots open it (`robot.users_own`); all else is an ordinary file inside the robot's folder.
+robots open it (`robot.files.users_own`); all else is an ordinary file inside the robot's folder.
 
 Focal length and centre are nominal, from the description's field of view.
 """
@@ -21,8 +21,6 @@ from typing import Protocol, Self
 
 import msgspec
 
-from robot import config, users_own
-from robot import quantities as q
 from robot.clock import Clock
 from robot.closing import Closing
 from robot.drivers.camera.capture import Capture, Pixels
@@ -30,9 +28,11 @@ from robot.drivers.camera.numbered import NumberedPictures
 from robot.drivers.sensor_source import SensorSource
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
+from robot.files import config, users_own
+from robot.files import quantities as q
+from robot.files.ordinary_files import is_within
 from robot.messages import RgbdImage
 from robot.model.description import Camera
-from robot.ordinary_files import is_within
 
 SETTINGS = "uvc.yaml"
 KEPT = 4

@@ -12,7 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from robot.errors import DriverError
-from robot.user_state import user_state_folder
+from robot.files.user_state import user_state_folder
 
 FILE = "claims.lock"
 _FLAGS = os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW

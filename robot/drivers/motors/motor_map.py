@@ -8,9 +8,9 @@ from typing import TypeAlias, TypeVar
 
 import msgspec
 
-from robot import config, yaml_nodes
 from robot.drivers.motors.mounting import Mounted, beyond, unlike
 from robot.errors import ConfigError
+from robot.files import config, yaml_nodes
 
 WATCHDOG_PERIODS = 3
 

@@ -7,9 +7,9 @@ from typing import Literal, NamedTuple, Protocol
 
 import msgspec
 
-from robot import config
-from robot import quantities as q
 from robot.errors import Problem
+from robot.files import config
+from robot.files import quantities as q
 
 SLACK_RAD = 0.05
 """So far behind its limit a joint may stand: its end stop is softer than its limit."""

@@ -10,12 +10,12 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from robot.archives import Archive, packed
 from robot.errors import ConfigError, Problem
+from robot.files.archives import Archive, packed
+from robot.files.ordinary_files import write_ordinary
 from robot.fusion.slam.grid import Grid
 from robot.fusion.slam.planar import turn
 from robot.fusion.slam.scan import Scan
-from robot.ordinary_files import write_ordinary
 from robot.se3 import Array
 
 FORMAT = "humanoid map 1"

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from robot.archives import Archive, Plain
+from robot.files.archives import Archive, Plain
 from robot.fusion.slam.scan import Scan, scan_of
 from robot.se3 import Array
 

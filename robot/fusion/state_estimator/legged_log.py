@@ -16,8 +16,8 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from robot.archives import Archive
 from robot.errors import ConfigError, Problem
+from robot.files.archives import Archive
 from robot.se3 import SE3, Array
 
 MOST_BYTES = 200_000_000

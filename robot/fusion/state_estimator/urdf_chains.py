@@ -14,7 +14,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import read_ordinary
+from robot.files.ordinary_files import read_ordinary
 from robot.se3 import SE3, Array
 
 MOST_BYTES = 5_000_000

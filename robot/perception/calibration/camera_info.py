@@ -10,8 +10,8 @@ import numpy as np
 import yaml
 from numpy.typing import NDArray
 
-from robot import config
 from robot.errors import ConfigError, Problem
+from robot.files import config
 from robot.perception.calibration import opencv
 from robot.perception.calibration.intrinsics import Camera
 

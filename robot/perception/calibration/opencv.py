@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot.errors import ConfigError, Problem
+from robot.files.pictures import Picture
 from robot.perception.calibration.board import Board, Charuco, Chessboard
-from robot.pictures import Picture
 
 INSTALL = "pip install 'humanoid-executive[vision]'"
 ITERATIONS, ENOUGH_PX = 30, 0.1

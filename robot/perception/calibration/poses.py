@@ -18,8 +18,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from robot import yaml_nodes
 from robot.errors import ConfigError, Problem
+from robot.files import yaml_nodes
 from robot.se3 import quat_to_matrix
 
 HEAD = ("image", "x", "y", "z", "qw", "qx", "qy", "qz")

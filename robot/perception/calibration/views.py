@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot.errors import ConfigError, Problem
+from robot.files.pictures import read_grey
 from robot.perception.calibration import opencv
 from robot.perception.calibration.board import Board, Charuco
-from robot.pictures import read_grey
 
 WINDOW_PX = 11
 """Half the window around a chessboard's corner, as in OpenCV's own calibration program."""

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from robot.errors import ConfigError, Problem
+from robot.files.pictures import Picture
 from robot.perception.detector.labels import read_labels
 from robot.perception.detector.letterbox import letterboxed
 from robot.perception.detector.network import Network
 from robot.perception.detector.overlaps import without_overlaps
 from robot.perception.detector.yolo import decoded
-from robot.pictures import Picture
 
 LEAST_SCORE, OVERLAP = 0.25, 0.45
 """As YOLO's own tools have them."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from robot import yaml_nodes
 from robot.errors import ConfigError, Problem
+from robot.files import yaml_nodes
 
 MOST_NAMES, LONGEST_NAME = 10_000, 200
 _YAML = (".yaml", ".yml")

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from robot.pictures import Picture
+from robot.files.pictures import Picture
 
 BORDER = 114
 """The grey around a picture that is not of the network's proportions, as YOLO is trained with."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import read_ordinary
+from robot.files.ordinary_files import read_ordinary
 from robot.perception.detector import onnx_file
 
 INSTALL = "pip install 'humanoid-executive[vision]'"

@@ -20,8 +20,8 @@ from typing import overload
 import numpy as np
 from numpy.typing import NDArray
 
-from robot.archives import Archive, Plain
 from robot.errors import ConfigError, Problem
+from robot.files.archives import Archive, Plain
 from robot.perception.people.scan import PlanarScan
 
 MOST_SCANS, MOST_BEAMS = 200_000, 10_000

@@ -4,8 +4,8 @@ import random
 
 import pytest
 
-from robot.config import MOST_PROBLEMS
 from robot.errors import ConfigError
+from robot.files.config import MOST_PROBLEMS
 from sim import atlas, placing, world
 from sim.footprint import Footprint, overlapping
 from sim.world_schema import MOST_FURNITURE, MOST_ROOMS, Room

@@ -5,7 +5,7 @@ from __future__ import annotations
 from executive.engine.job_book import JobError
 from executive.engine.jobs import Job
 from executive.journal import failures
-from robot.misfits import shown
+from robot.files.misfits import shown
 
 MOST_DIGITS = 9
 """Of a job's number; a run has a few hundred."""

@@ -11,7 +11,7 @@ from executive.frontends.prompt.commands.job_words import is_number, number_of, 
 from executive.frontends.prompt.shell import Shell
 from executive.missions import fault_plans
 from robot.errors import ConfigError
-from robot.misfits import listed, shown
+from robot.files.misfits import listed, shown
 
 
 def commands(shell: Shell) -> tuple[Command, ...]:

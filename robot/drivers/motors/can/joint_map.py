@@ -17,7 +17,6 @@ from typing import Annotated, TypeAlias
 
 import msgspec
 
-from robot import quantities as q
 from robot.drivers.motors import motor_map
 from robot.drivers.motors.can import load as bus_load
 from robot.drivers.motors.can.families import FAMILIES, Family
@@ -25,6 +24,7 @@ from robot.drivers.motors.can.frames import BITRATE_HZ
 from robot.drivers.motors.can.mit11 import MOST_ID, Ranges
 from robot.drivers.motors.can.models import MODELS
 from robot.drivers.motors.motor_map import Motor, MotorMap, Wrong
+from robot.files import quantities as q
 from robot.model.description import RobotDescription
 
 FILE = "can.yaml"

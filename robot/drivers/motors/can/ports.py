@@ -11,13 +11,13 @@ from typing import NamedTuple, Protocol, Self
 
 import can
 
-from robot import users_own
 from robot.clock import Clock
 from robot.closing import Closing
 from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.joint_map import Bus
 from robot.drivers.motors.can.packed import BUS_OFF, BUS_OFF_FRAME, SIZE, packed, unpacked
 from robot.errors import DriverError
+from robot.files import users_own
 from robot.printable import printable_line
 
 MOST_A_CALL = 64

@@ -18,7 +18,6 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
-from robot import quantities as q
 from robot.drivers.motors import motor_map
 from robot.drivers.motors.dynamixel import load as port_load
 from robot.drivers.motors.dynamixel.control_table import (
@@ -29,6 +28,7 @@ from robot.drivers.motors.dynamixel.control_table import (
 from robot.drivers.motors.dynamixel.models import MODELS, Model
 from robot.drivers.motors.dynamixel.packets import MOST_ID
 from robot.drivers.motors.motor_map import Motor, MotorMap, Wrong
+from robot.files import quantities as q
 from robot.model.description import RobotDescription
 
 FILE = "dynamixel.yaml"

@@ -10,10 +10,10 @@ from typing import Protocol, Self
 
 import serial
 
-from robot import users_own
 from robot.closing import Closing
 from robot.drivers.motors.dynamixel.joint_map import Port
 from robot.errors import DriverError
+from robot.files import users_own
 
 SYSFS = Path("/sys/bus/usb-serial/devices")
 AS_SOLD_S = 0.016

@@ -9,8 +9,8 @@ from executive.evaluation.elsewhere import Skipped, homes, moved
 from executive.evaluation.record import Record
 from executive.frontends import evaluation, evaluation_report, output
 from executive.frontends.options import Eval
-from robot import yaml_nodes
 from robot.errors import ConfigError
+from robot.files import yaml_nodes
 from robot.reality.contract import Cast
 from sim.simulation import Simulation
 

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from executive.evaluation.campaign import SHIPPED, Campaign, read
-from robot import config
+from robot.files import config
 from tests.unit.robot.drivers.test_motor_faults import FAULTS
 
 ROOT = Path(__file__).parents[4]

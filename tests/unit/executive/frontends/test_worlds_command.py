@@ -7,8 +7,8 @@ import pytest
 
 from executive.frontends.composition_root import REALITY
 from executive.frontends.worlds import commands
-from robot import yaml_nodes
 from robot.errors import ConfigError
+from robot.files import yaml_nodes
 
 
 def test_a_home_is_printed(capsys):

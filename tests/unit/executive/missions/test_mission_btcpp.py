@@ -12,8 +12,8 @@ from executive.missions import nav2
 from executive.missions.btcpp import exporting, importing, leaves
 from executive.missions.btcpp.xml import parse
 from executive.missions.load import shipped
-from robot import yaml_nodes
 from robot.errors import ConfigError
+from robot.files import yaml_nodes
 from tests.fakes.missions import SIMULATION, check, known_settings  # noqa: F401, a fixture
 
 

@@ -22,8 +22,8 @@ from executive.skills.pick import PickParams
 from executive.skills.say import SayParams
 from executive.skills.wait import WaitParams
 from executive.trees import parts as p
-from robot import yaml_nodes
 from robot.errors import ConfigError
+from robot.files import yaml_nodes
 from tests.fakes.missions import check, known_settings  # noqa: F401, a fixture
 
 SECOND = 1.0

@@ -7,9 +7,9 @@ import pytest
 from executive.missions import nav2
 from executive.missions.btcpp import importing, leaves, nodes
 from executive.missions.btcpp.xml import parse
-from robot import yaml_nodes
 from robot.errors import ConfigError
-from robot.yaml_nodes import read_text
+from robot.files import yaml_nodes
+from robot.files.yaml_nodes import read_text
 
 
 def tree(inside: str, head: str = "") -> str:

@@ -6,7 +6,7 @@ import re
 import msgspec
 import pytest
 
-from robot import yaml_nodes
+from robot.files import yaml_nodes
 from sim import atlas
 from sim.homes import catalogue
 from sim.homes.tasks import COUNT, KINDS, tasks

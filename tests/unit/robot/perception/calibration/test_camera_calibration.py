@@ -8,10 +8,10 @@ import yaml
 from PIL import Image
 
 from robot.errors import ConfigError
+from robot.files.pictures import pictures_in
 from robot.perception.calibration.board import read_board
 from robot.perception.calibration.camera_info import camera_info
 from robot.perception.calibration.intrinsics import Camera, calibrate
-from robot.pictures import pictures_in
 
 pytest.importorskip("cv2")
 from tests.fakes.boards import KnownCamera, views

@@ -215,7 +215,7 @@ def test_labels_that_name_nothing_are_refused(name, text, tmp_path):
 
 
 def test_pictures_of_all_kinds_are_read(tmp_path):
-    from robot.pictures import read_colour, read_grey
+    from robot.files.pictures import read_colour, read_grey
 
     grey16 = tmp_path / "depth.png"
     Image.fromarray(np.full((4, 6), 40000, dtype=np.uint16)).save(grey16)

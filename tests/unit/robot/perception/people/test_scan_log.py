@@ -6,8 +6,8 @@ import zipfile
 import numpy as np
 import pytest
 
-from robot.archives import Archive
 from robot.errors import ConfigError
+from robot.files.archives import Archive
 from robot.perception.people.scan_log import read_scans
 
 

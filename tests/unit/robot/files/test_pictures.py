@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from robot.errors import ConfigError
-from robot.pictures import read_colour, read_grey
+from robot.files.pictures import read_colour, read_grey
 
 
 @pytest.fixture

@@ -25,7 +25,7 @@ from numpy.lib import format as npy
 from numpy.typing import NDArray
 
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import open_ordinary
+from robot.files.ordinary_files import open_ordinary
 
 MOST_BYTES = 100_000_000
 """Of all arrays in memory, where nothing else is said: an hour of 20 scans a second of 690 beams

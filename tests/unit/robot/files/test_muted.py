@@ -2,7 +2,7 @@
 
 import os
 
-from robot.muted import muted
+from robot.files.muted import muted
 
 
 def test_standard_error_is_quiet_inside_and_heard_again_outside(capfd):

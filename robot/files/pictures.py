@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
 from robot.errors import ConfigError, Problem
-from robot.muted import muted
-from robot.ordinary_files import read_ordinary
+from robot.files.muted import muted
+from robot.files.ordinary_files import read_ordinary
 
 Picture = NDArray[np.uint8]
 """Grey, shape (height, width), or red, green, blue, shape (height, width, 3)."""

@@ -3,8 +3,8 @@
 import msgspec
 import pytest
 
-from robot import plain_data
 from robot.errors import ConfigError
+from robot.files import plain_data
 
 
 class Cup(msgspec.Struct, forbid_unknown_fields=True):

@@ -9,10 +9,10 @@ from typing import TypeVar
 
 import msgspec
 
-from robot import misfits, yaml_nodes
 from robot.errors import ConfigError, Problem
-from robot.misfits import nearest
-from robot.yaml_nodes import Node
+from robot.files import misfits, yaml_nodes
+from robot.files.misfits import nearest
+from robot.files.yaml_nodes import Node
 
 __all__ = ["convert", "load", "nearest", "place"]
 

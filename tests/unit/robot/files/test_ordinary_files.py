@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from robot.ordinary_files import (
+from robot.files.ordinary_files import (
     is_within,
     make_below,
     open_ordinary,

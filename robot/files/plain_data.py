@@ -1,7 +1,7 @@
 """JSON and TOML that may be a stranger's: dicts, lists and scalars, then a typed value.
 
-What is wrong is told in words of our own, as `robot.config` does for YAML, whose nodes know their
-lines; here a path has to do.
+What is wrong is told in words of our own, as `config` does for YAML, whose nodes know their lines;
+here a path has to do.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import TypeVar, cast
 import msgspec
 
 from robot.errors import ConfigError, Problem
-from robot.misfits import Misfit, Path, dotted, misfits
+from robot.files.misfits import Misfit, Path, dotted, misfits
 from robot.printable import is_printable, printable
 
 T = TypeVar("T")

@@ -14,9 +14,9 @@ import stat
 from pathlib import Path
 from typing import Any, cast
 
-from robot import plain_data
 from robot.errors import DriverError
-from robot.ordinary_files import open_ordinary
+from robot.files import plain_data
+from robot.files.ordinary_files import open_ordinary
 
 MAX_BYTES = 64_000
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from robot import yaml_nodes
 from robot.errors import ConfigError
+from robot.files import yaml_nodes
 
 
 @pytest.mark.parametrize(

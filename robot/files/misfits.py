@@ -1,7 +1,7 @@
 """What keeps plain data from being of a type: every misfit by name, with range, unit and cure.
 
 msgspec stops at the first and speaks of Python's types; people who write a file want all of them,
-in the words of the file. The types are msgspec's, the ranges those of `robot.quantities`.
+in the words of the file. The types are msgspec's, the ranges those of `robot.files.quantities`.
 """
 
 from __future__ import annotations

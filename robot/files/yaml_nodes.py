@@ -1,6 +1,6 @@
 """YAML text as nodes that know where they stand; what explodes or deceives is refused at once.
 
-Every YAML file is read here: `robot.config` makes typed values of the nodes, and a mission's
+Every YAML file is read here: `robot.files.config` makes typed values of the nodes, and a mission's
 reader walks over them.
 
 The events of libyaml are read one by one, so that size, depth, anchors, tags and doubled keys are
@@ -18,9 +18,9 @@ from typing import Any, Literal, cast
 
 import yaml
 
-from robot import yaml_words
 from robot.errors import ConfigError, Problem
-from robot.ordinary_files import read_ordinary
+from robot.files import yaml_words
+from robot.files.ordinary_files import read_ordinary
 from robot.printable import is_printable, printable
 
 MAX_BYTES = 2_000_000

@@ -4,7 +4,7 @@ import time
 
 import pytest
 
-from robot import patterns
+from robot.files import patterns
 
 
 @pytest.mark.parametrize(

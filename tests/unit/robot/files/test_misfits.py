@@ -5,9 +5,9 @@ from typing import Annotated, Literal
 import msgspec
 import pytest
 
-from robot import config, quantities, yaml_nodes
 from robot.errors import ConfigError
-from robot.misfits import misfits
+from robot.files import config, quantities, yaml_nodes
+from robot.files.misfits import misfits
 from robot.model.description import RobotDescription
 from robot.reality import faults
 from sim.world_schema import World

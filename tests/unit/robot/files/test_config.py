@@ -3,8 +3,8 @@
 import msgspec
 import pytest
 
-from robot import config, yaml_nodes
 from robot.errors import ConfigError
+from robot.files import config, yaml_nodes
 
 
 class Inner(msgspec.Struct, frozen=True, forbid_unknown_fields=True):

@@ -8,7 +8,7 @@ import pytest
 
 from executive.frontends.prompt.terminal import history_at_home
 from executive.frontends.service.place import bases
-from robot.user_state import user_state_folder
+from robot.files.user_state import user_state_folder
 
 
 def test_it_is_where_the_user_wants_state(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):

@@ -6,9 +6,9 @@ import zipfile
 import numpy as np
 import pytest
 
-from robot import archives
-from robot.archives import Archive
 from robot.errors import ConfigError
+from robot.files import archives
+from robot.files.archives import Archive
 
 
 def entry(array) -> bytes:
