@@ -1,8 +1,13 @@
-"""The simulated plant behind emulated buses or ports: open for as long as they are."""
+"""The simulated plant behind emulated buses or ports: open for as long as they are; its time."""
 
 from __future__ import annotations
 
+from robot.clock import WallClock
 from robot.drivers.wiring import SimulatedPlant
+
+POLL_S = 0.0001
+SAME_S = 1e-6
+"""Sums of periods are not exact."""
 
 
 class PlantBehind:
@@ -23,3 +28,20 @@ class PlantBehind:
         if self._is_open:
             self._is_open = False
             self._plant.close()
+
+
+class PlantClock:
+    """The time of a simulated plant in another process; it goes on in the plant's periods."""
+
+    def __init__(self, plant: SimulatedPlant) -> None:
+        """Of a plant that is open whenever the time is asked for."""
+        self._plant, self._wall = plant, WallClock()
+
+    def now_s(self) -> float:
+        """When its newest period began. Raises DriverError if it went away."""
+        return self._plant.sample.motors.stamp_s
+
+    def sleep_until(self, time_s: float) -> None:
+        """Wait. Raises DriverError if it went away."""
+        while self.now_s() < time_s - SAME_S:
+            self._wall.sleep_until(self._wall.now_s() + POLL_S)

@@ -11,16 +11,14 @@ import numpy.typing as npt
 
 from robot.closing import Closing
 from robot.drivers.motor_bus import Capability, MotorBus, MotorCommand, MotorState
+from robot.drivers.motors.can import driver as can_driver
 from robot.drivers.motors.can import joint_map as can_map
 from robot.drivers.motors.can.driver import CanMotors
-from robot.drivers.motors.can.emulated import EmulatedBuses, PlantClock, buses_in
 from robot.drivers.motors.can.joint_map import JointMap
-from robot.drivers.motors.can.ports import PythonCan, check_buses
+from robot.drivers.motors.dynamixel import driver as dynamixel_driver
 from robot.drivers.motors.dynamixel import joint_map
 from robot.drivers.motors.dynamixel.driver import DynamixelMotors
-from robot.drivers.motors.dynamixel.emulated import EmulatedPorts, ports_in
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
-from robot.drivers.motors.dynamixel.ports import SerialPorts, check_ports
 from robot.drivers.motors.limiter import FIELDS
 from robot.drivers.wiring import Wiring
 from robot.errors import ConfigError, DriverError, Problem
@@ -67,26 +65,10 @@ def make(wiring: Wiring) -> MotorBus:
         DriverError: the user does not let robots open one of the ports or buses.
     """
     servos, can = maps(wiring.robot)
-    if wiring.emulated is not None:
-        plant = wiring.simulated_plant()
-        time, here = PlantClock(plant), ports_in(servos, wiring.emulated)
-        moved = DynamixelMotors(
-            here, time, ports=lambda: EmulatedPorts(here, plant), tell=print, waits=can is None
-        )
-        if can is None:
-            return moved
-        there = buses_in(can, wiring.emulated)
-        others = CanMotors(there, time, ports=lambda: EmulatedBuses(there, plant, time), tell=print)
-        return ServosAndOthers(wiring.robot.motor_names, moved, others)
-    check_ports(servos.ports)
-    clock = wiring.clock
-    moved = DynamixelMotors(
-        servos, clock, ports=lambda: SerialPorts(servos.ports), tell=print, waits=can is None
-    )
+    moved = dynamixel_driver.wired(servos, wiring, waits=can is None)
     if can is None:
         return moved
-    check_buses(can.buses)
-    others = CanMotors(can, clock, ports=lambda: PythonCan(can.buses, clock), tell=print)
+    others = can_driver.wired(can, wiring)
     return ServosAndOthers(wiring.robot.motor_names, moved, others)
 
 

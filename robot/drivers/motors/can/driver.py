@@ -13,7 +13,7 @@ from robot.drivers.motor_bus import MIT_MODE, MotorBus, MotorCommand, MotorState
 from robot.drivers.motors.alarms import Alarms, News, untold
 from robot.drivers.motors.can import arming, joint_map, watching
 from robot.drivers.motors.can.coding import Coding
-from robot.drivers.motors.can.emulated import EmulatedBuses, PlantClock, buses_in
+from robot.drivers.motors.can.emulated import EmulatedBuses, buses_in
 from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.interview import interview
 from robot.drivers.motors.can.joint_map import JointMap
@@ -30,6 +30,7 @@ from robot.drivers.motors.holding import Holding
 from robot.drivers.motors.life import Life, not_let_go
 from robot.drivers.motors.limiter import Limiter, Measured
 from robot.drivers.motors.periods import Periods
+from robot.drivers.motors.plant_behind import PlantClock
 from robot.drivers.motors.speed_check import SpeedCheck
 from robot.drivers.motors.watching import SILENT_PERIODS
 from robot.drivers.wiring import Wiring
@@ -50,15 +51,22 @@ def make(wiring: Wiring) -> MotorBus:
         ConfigError: the file says what cannot be meant, or lacks a motor of the robot.
         DriverError: the user does not let robots open one of its buses.
     """
-    joints = joint_map.beside(wiring.robot)
-    if wiring.emulated is not None:
-        plant = wiring.simulated_plant()
-        joints, time = buses_in(joints, wiring.emulated), PlantClock(plant)
-        return CanMotors(joints, time, ports=lambda: EmulatedBuses(joints, plant, time), tell=print)
-    check_buses(joints.buses)
-    return CanMotors(
-        joints, wiring.clock, ports=lambda: PythonCan(joints.buses, wiring.clock), tell=print
-    )
+    return wired(joint_map.beside(wiring.robot), wiring)
+
+
+def wired(joints: JointMap, wiring: Wiring) -> CanMotors:
+    """The motors of a map, emulated where a process emulates them.
+
+    Raises:
+        DriverError: the user does not let robots open one of its buses.
+    """
+    if wiring.emulated is None:
+        check_buses(joints.buses)
+        clock = wiring.clock
+        return CanMotors(joints, clock, ports=lambda: PythonCan(joints.buses, clock), tell=print)
+    plant = wiring.simulated_plant()
+    there, time = buses_in(joints, wiring.emulated), PlantClock(plant)
+    return CanMotors(there, time, ports=lambda: EmulatedBuses(there, plant, time), tell=print)
 
 
 class CanMotors(Closing):

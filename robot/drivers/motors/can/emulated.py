@@ -7,7 +7,7 @@ from typing import Self
 
 import msgspec
 
-from robot.clock import Clock, WallClock
+from robot.clock import Clock
 from robot.drivers.motors.can.joint_map import Bus, JointMap
 from robot.drivers.motors.can.ports import PythonCan, socket_path
 from robot.drivers.motors.plant_behind import PlantBehind
@@ -16,9 +16,6 @@ from robot.errors import ConfigError, Problem
 
 INTERFACE = "humanoid"
 """Of python-can (`sim.devices.python_can`)."""
-POLL_S = 0.0001
-SAME_S = 1e-6
-"""Sums of periods are not exact."""
 
 
 def check(joints: JointMap) -> None:
@@ -48,23 +45,6 @@ def buses_in(joints: JointMap, folder: Path) -> JointMap:
         for index, (name, bus) in enumerate(joints.buses.items())
     }
     return msgspec.structs.replace(joints, buses=buses)
-
-
-class PlantClock:
-    """The time of a simulated plant in another process; it goes on in the plant's periods."""
-
-    def __init__(self, plant: SimulatedPlant) -> None:
-        """Of a plant that is open whenever the time is asked for."""
-        self._plant, self._wall = plant, WallClock()
-
-    def now_s(self) -> float:
-        """When its newest period began. Raises DriverError if it went away."""
-        return self._plant.sample.motors.stamp_s
-
-    def sleep_until(self, time_s: float) -> None:
-        """Wait. Raises DriverError if it went away."""
-        while self.now_s() < time_s - SAME_S:
-            self._wall.sleep_until(self._wall.now_s() + POLL_S)
 
 
 class EmulatedBuses(PythonCan):

@@ -23,9 +23,10 @@ from robot.drivers.motors.claim import Claim
 from robot.drivers.motors.dynamixel import arming, watching
 from robot.drivers.motors.dynamixel.asking import Asking
 from robot.drivers.motors.dynamixel.control_table import WATCHDOG_STEP_S
+from robot.drivers.motors.dynamixel.emulated import EmulatedPorts, ports_in
 from robot.drivers.motors.dynamixel.interview import interview, verdicts
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
-from robot.drivers.motors.dynamixel.ports import Ports
+from robot.drivers.motors.dynamixel.ports import Ports, SerialPorts, check_ports
 from robot.drivers.motors.dynamixel.reception import Reception
 from robot.drivers.motors.dynamixel.talking import Talk
 from robot.drivers.motors.findings import refuse_grave
@@ -34,13 +35,38 @@ from robot.drivers.motors.holding import Holding
 from robot.drivers.motors.life import Life, not_let_go
 from robot.drivers.motors.limiter import Limiter, Measured
 from robot.drivers.motors.periods import Periods
+from robot.drivers.motors.plant_behind import PlantClock
 from robot.drivers.motors.speed_check import SpeedCheck
 from robot.drivers.motors.watching import SILENT_PERIODS
+from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.se3 import Array
 
 STALE_PERIODS = 3
 """From so many on nothing is fed back of a servo that does not answer."""
+
+
+def wired(servos: ServoMap, wiring: Wiring, *, waits: bool) -> DynamixelMotors:
+    """The servos of a map, emulated where a process emulates them.
+
+    Args:
+        servos: the map.
+        wiring: of the process.
+        waits: as `DynamixelMotors` has it.
+
+    Raises:
+        DriverError: the user does not let robots open one of its ports.
+    """
+    if wiring.emulated is None:
+        check_ports(servos.ports)
+        return DynamixelMotors(
+            servos, wiring.clock, ports=lambda: SerialPorts(servos.ports), tell=print, waits=waits
+        )
+    plant = wiring.simulated_plant()
+    there, time = ports_in(servos, wiring.emulated), PlantClock(plant)
+    return DynamixelMotors(
+        there, time, ports=lambda: EmulatedPorts(there, plant), tell=print, waits=waits
+    )
 
 
 class DynamixelMotors(Closing):
