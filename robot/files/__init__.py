@@ -1,1 +1,1 @@
-"""Files that may be a stranger's: opened, bounded, read into typed values, mistakes told by place."""
+"""Files that may be a stranger's: opened in bounds, read into typed values, mistakes by place."""
