@@ -91,6 +91,7 @@ def asks_to_stop(text: str, vocabulary: Vocabulary) -> bool:
     "Desist from going there" is read, and not spotted: it takes some milliseconds, which whoever
     reads lines has, where waiting for the line before takes seconds. Nothing is reworded.
     """
+    text = _whole(text)
     if len(text) > MAX_CHARACTERS or _ERRAND.search(text):
         return False
     outcome = first_look(text, vocabulary, Context()).outcome
@@ -112,6 +113,7 @@ def hear(
     for nothing, what is not to be done and what is beyond all limits is the grammar's to answer.
     """
     started = time.perf_counter()
+    text = _whole(text)
     before = context or Context()
     outcome, after = _hear(text, vocabulary, before)
     if fallback is not None and _is_for_another(outcome, before) and len(text) <= MAX_CHARACTERS:
@@ -122,6 +124,11 @@ def hear(
     timed = replace(outcome, ms=ms)
     question = timed if isinstance(timed, Question) else None
     return timed, replace(after, question=question)
+
+
+def _whole(text: str) -> str:
+    """A text without halves of letters (lone surrogates), which nothing can write down."""
+    return text if text.isascii() else text.encode("utf-8", "ignore").decode("utf-8")
 
 
 def _is_for_another(outcome: Outcome, before: Context) -> bool:

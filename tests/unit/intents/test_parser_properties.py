@@ -54,7 +54,9 @@ def test_no_salad_of_known_words_raises_and_goals_are_valid(text: str) -> None:
 DEGENERATE = (
     "a" * 100_000, "and " * 300, "the red " * 124, "(" * 999, "pick up the mug on the " * 43,
     "1e999", "turn 1e999 degrees", "walk 1e999 metres",
-    "\x00\ufffd\u202e" * 300, "if " * 300, "for each mug " * 70, "no wait " * 120,
+    "\x00\ufffd\u202e" * 300,
+    "\ud9cbDx, wi\udc80 take VV", 'say "\ud800 hello"', "bring \udfff mug",
+    "if " * 300, "for each mug " * 70, "no wait " * 120,
 )  # fmt: skip
 
 
