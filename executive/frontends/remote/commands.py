@@ -115,10 +115,13 @@ def address(text: str) -> tuple[str, int]:
         ConfigError: that is none.
     """
     found = re.fullmatch(r"(\[[0-9a-fA-F:.]+\]|[\w.-]{1,253})(?::(\d{1,5}))?", text)
-    if found is None or not 0 < int(found[2] or DEFAULT_PORT) < 1 << 16:
+    host = "" if found is None else found[1].strip("[]")
+    if found is None or not (
+        invitations.is_host(host) and 0 < int(found[2] or DEFAULT_PORT) < 1 << 16
+    ):
         cure = f"write robot.local:{DEFAULT_PORT}, or 192.168.1.7"
         raise ConfigError([Problem(f"{text!r} is no address", suggestion=cure)])
-    return found[1].strip("[]"), int(found[2] or DEFAULT_PORT)
+    return host, int(found[2] or DEFAULT_PORT)
 
 
 def _listening(host: str, port: int) -> socket.socket:

@@ -6,6 +6,7 @@ It holds a private key, so that it is a secret of whoever it was made for: mode 
 from __future__ import annotations
 
 import os
+import re
 import ssl
 from pathlib import Path
 from typing import Annotated, Literal
@@ -25,9 +26,10 @@ ROLES: dict[Role, str] = {
 SERVER_NAME = "robots.humanoid.invalid"
 """What the certificate of a gate is for, wherever it stands; `.invalid` is nobody's (RFC 2606)."""
 MAX_BYTES = 32_000
-Host = Annotated[str, Meta(min_length=1, max_length=253)]
+Host = Annotated[str, Meta(max_length=253)]
 Port = Annotated[int, Meta(ge=1, le=65535)]
-Pem = Annotated[str, Meta(max_length=8_000)]
+Pem = Annotated[str, Meta(max_length=8_000, pattern=r"^[\n\r -~]*$")]
+_HOST = re.compile(r"[\w.-]{1,253}|[0-9a-fA-F:.]{2,45}")
 
 
 class Invitation(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -51,6 +53,15 @@ class Invitation(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
     key: Pem
 
 
+def is_host(text: str) -> bool:
+    """Whether a text may be the name or the address of a machine: what can be looked up at all."""
+    try:
+        text.encode("idna")  # no label is empty, or longer than 63 letters (RFC 1035)
+    except UnicodeError:
+        return False
+    return _HOST.fullmatch(text) is not None
+
+
 def read(path: Path) -> Invitation:
     """The invitation in a file.
 
@@ -58,7 +69,10 @@ def read(path: Path) -> Invitation:
         ConfigError: it is none, or others may read it.
     """
     try:
-        return msgspec.json.decode(read_secret(path, limit=MAX_BYTES), type=Invitation)
+        found = msgspec.json.decode(read_secret(path, limit=MAX_BYTES), type=Invitation)
+        if is_host(found.host):
+            return found
+        text, cure = "names no host", "have a new one made by `humanoid remote invite`"
     except OSError as error:
         text, cure = f"cannot be read: {error.strerror}", "name a file of `humanoid remote invite`"
     except (msgspec.DecodeError, RecursionError):
