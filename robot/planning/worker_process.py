@@ -19,7 +19,6 @@ from multiprocessing.context import SpawnProcess
 from typing import NamedTuple
 
 from robot.bus.lifeline import tie_to_parent
-from robot.errors import ProcessError
 from robot.model.description import RobotDescription
 from robot.planning.requests import PlanRequest, PlanResult
 
@@ -119,10 +118,7 @@ def _work(description: RobotDescription, pipe: Connection) -> None:
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
-    try:
-        tie_to_parent((parent.pid if parent is not None else None) or os.getppid())
-    except ProcessError:  # it is gone already
-        return
+    tie_to_parent((parent.pid if parent is not None else None) or os.getppid())
     solver = Solver(description)
     try:
         pipe.send(None)
