@@ -117,8 +117,11 @@ def parse_formats(text: str, *, also: tuple[str, ...] = ()) -> tuple[Format, ...
     names = [name.strip() for name in text.split(",") if name.strip()]
     wrong = [name for name in names if name not in known]
     if wrong or not names:
-        name = wrong[0] if wrong else ""
         every = [*known, *also]
+        name = next((one for one in wrong if one not in every), "")
+        if wrong and not name:
+            text, cure = f"{wrong[0]} is written by itself", f"ask for it alone: {wrong[0]}"
+            raise ConfigError([Problem(text, suggestion=cure)])
         hint = nearest(name, every) or f"one of {', '.join(every)}"
         raise ConfigError([Problem(f"there is no format {name!r}", suggestion=hint)])
     return tuple(dict.fromkeys(known[name] for name in names))

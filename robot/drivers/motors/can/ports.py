@@ -18,6 +18,7 @@ from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.joint_map import Bus
 from robot.drivers.motors.can.packed import BUS_OFF, BUS_OFF_FRAME, SIZE, packed, unpacked
 from robot.errors import DriverError
+from robot.printable import printable_line
 
 MOST_A_CALL = 64
 """Frames of one bus: whoever floods it must not hold up the others."""
@@ -109,22 +110,23 @@ class PythonCan(Closing):
         """Open all. Raises DriverError naming the one that cannot be, and the cure."""
         for name, bus in self._buses.items():
             try:
-                opened = can.Bus(
+                opened = self._opened[name] = can.Bus(
                     channel=bus.channel, interface=bus.interface, ignore_config=True,
                     bitrate=bus.bitrate_hz,
                 )  # fmt: skip
-            except (can.CanError, OSError, ValueError) as error:
+                number = opened.fileno()
+            except Exception as error:  # each of python-can's interfaces has its own
                 self.close()
                 cure = (
                     f"ip link set {bus.channel} up type can bitrate {bus.bitrate_hz}"
                     if bus.interface == "socketcan"
                     else f"look at the interface {bus.interface!r} of python-can"
                 )
-                text = f"the bus {name!r} ({bus.channel}) cannot be opened: {error}"
+                reason = printable_line(str(error)) or type(error).__name__
+                text = f"the bus {name!r} ({bus.channel}) cannot be opened: {reason}"
                 raise DriverError(f"{text} ({cure})") from None
-            self._opened[name] = opened
-            self._by_fd[opened.fileno()] = name
-            self._poll.register(opened.fileno(), select.POLLIN)
+            self._by_fd[number] = name
+            self._poll.register(number, select.POLLIN)
             if (found := _socket_of(opened)) is not None:
                 self._sockets[name] = found
         return self

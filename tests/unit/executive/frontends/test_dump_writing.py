@@ -222,3 +222,11 @@ def test_a_column_of_several_types_is_written_as_text():
     table = Table(name="t", columns=("a", "b"), rows=rows)
     read = pyarrow.read_table(io.BytesIO(as_parquet(table))).to_pydict()
     assert read == {"a": ["True", "x", None], "b": ["1", "2", str(2**70)]}
+
+
+@pytest.mark.parametrize("text", ["mcap,html", "html, mcap"])
+def test_a_format_that_stands_alone_is_not_said_to_be_unknown(text):
+    with pytest.raises(ConfigError, match="mcap is written by itself"):
+        parse_formats(text, also=("mcap", "csv"))
+    with pytest.raises(ConfigError, match="no format 'exe'"):
+        parse_formats("mcap,exe", also=("mcap", "csv"))
