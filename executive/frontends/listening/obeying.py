@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import deque
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
@@ -17,6 +18,7 @@ from executive.journal.journal import Event
 from intents import goals as g
 from intents.goals import Goal, each
 from intents.risks import risk
+from intents.speech.audio import RATE_HZ
 from intents.speech.ear import Ear, Spoken
 from intents.speech.voice import voice
 from intents.stopping import is_stop
@@ -83,6 +85,10 @@ def doubtful_risk(one: Spoken) -> Callable[[tuple[Goal, ...]], str]:
     return why
 
 
+REMEMBERED = 5000
+"""Blocks of sound of which it is known how often the robot had been told to stop by then."""
+
+
 class Conversation:
     """A person and a robot, both of whom speak.
 
@@ -107,6 +113,8 @@ class Conversation:
         self._recorded = recorded
         self._stops = shell.brake.stops
         self._left_out = False
+        self._heard_s = 0.0
+        self._heard_by: deque[tuple[float, int]] = deque(maxlen=REMEMBERED)
         self._risk = heard_risk if confirm else risk
         self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="sentences")
         shell.speech.screen = self._said
@@ -126,6 +134,8 @@ class Conversation:
         shell = self._shell
         with sound(options) as blocks:
             for block in blocks:
+                self._heard_s += len(block.sound) / RATE_HZ
+                self._heard_by.append((self._heard_s, shell.brake.stops))
                 speaking = shell.speech.speaking and not self._recorded
                 self._ear.at_work = shell.robot.busy
                 for one in self._ear.push(block.sound, speaking=speaking, heeded=block.heeded):
@@ -169,12 +179,22 @@ class Conversation:
             shell.answer("I did not hear that well. Please say it again.")
         elif not shell.help(one.text):
             shell.halt_at_once(one.text, spoken=True)
-            doing = self._worker.submit(self._do, one, shell.brake.stops)
+            doing = self._worker.submit(self._do, one, self._stops_by(one.end_s))
             if not self._recorded:
                 return
             doing.result()
             shell.robot.wait()
         self._ear.replying = shell.asks
+
+    def _stops_by(self, end_s: float) -> int:
+        """How often it had been told to stop when somebody had spoken so far.
+
+        To notice that they have ended, and to recognise it, takes a second or two: a stop meanwhile
+        is about what they said, too.
+        """
+        heard_by = () if self._recorded else tuple(self._heard_by)
+        now = self._shell.brake.stops
+        return next((stops for heard_s, stops in heard_by if heard_s >= end_s), now)
 
     def _do(self, one: Spoken, stops: int) -> None:
         """One sentence; a mistake in this software must not end the listening."""

@@ -20,6 +20,7 @@ from executive.frontends.service import messages as m
 from executive.frontends.service import views
 from executive.frontends.service.client import Connection, press
 from executive.frontends.service.place import Place
+from executive.frontends.since_boot import now_s
 from robot.closing import Closing
 from robot.errors import RobotError
 
@@ -62,7 +63,7 @@ class Orders(Closing):
         self.left_out = 0
         self._place = place
         self._words: deque[str] = deque(maxlen=MOST_WORDS)
-        self._tasks: deque[str] = deque()
+        self._tasks: deque[tuple[str, float]] = deque()
         self._velocity: tuple[float, m.Drive] | None = None
         self._buttons: list[m.Button] = []
         self._lock = threading.Lock()
@@ -97,6 +98,7 @@ class Orders(Closing):
         with self._lock:
             if button not in self._buttons:
                 self._buttons.append(button)
+            self._velocity = None  # of before it
         self._stop_wanted.set()
 
     def say(self, text: str) -> None:
@@ -106,7 +108,7 @@ class Orders(Closing):
             if not plain or len(plain) > MOST_TEXT or len(self._tasks) >= MOST_TASKS:
                 self.left_out += 1
                 return
-            self._tasks.append(plain)
+            self._tasks.append((plain, now_s()))
         self._task_wanted.set()
 
     def drive(self, forward_m_s: float, left_m_s: float, turn_rad_s: float) -> None:
@@ -134,7 +136,8 @@ class Orders(Closing):
     def _say_tasks(self) -> None:
         while self._woken(self._task_wanted):
             while self._tasks and not self._closing.is_set():
-                self._ask(m.Say(text=self._tasks.popleft(), spoken=True), wait_s=None)
+                text, begun_s = self._tasks.popleft()
+                self._ask(m.Say(text=text, spoken=True, begun_s=begun_s), wait_s=None)
 
     def _ask(self, request: m.Request, *, wait_s: float | None) -> None:
         try:

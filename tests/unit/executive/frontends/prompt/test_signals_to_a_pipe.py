@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import signal
 from collections.abc import Generator
+from contextlib import nullcontext
 from types import SimpleNamespace
 from typing import cast
 
+import numpy as np
 import pytest
 
+from executive.frontends.listening import obeying
+from executive.frontends.listening.hearing import Block
 from executive.frontends.listening.obeying import Conversation
+from executive.frontends.listening.options import Listen
 from executive.frontends.prompt.cli import status_of
 from executive.frontends.prompt.plain import work_off
 from executive.frontends.prompt.shell import Shell
+from intents.speech.audio import RATE_HZ
 from intents.speech.ear import Ear, Spoken
 from robot.exit_status import ExitStatus
 from tests.fakes.puppet_shell import puppet_shell
@@ -107,6 +114,31 @@ def test_nothing_that_a_recording_says_is_done_after_a_stop_from_elsewhere(shell
         talk.take(Spoken(kind="sentence", text=text))
     assert [job.state for job in shell.robot.executive.jobs] == ["done", "done"]
     assert talk._status() == ExitStatus.FAILED
+
+
+@pytest.mark.parametrize(("stopped_in_block", "is_done"), [(1, True), (4, False)])
+def test_a_stop_while_it_is_recognised_is_about_what_was_said_before_it(
+    shell: Shell, monkeypatch, stopped_in_block: int, is_done: bool
+):
+    """Somebody spoke in the third block; that they had ended was noticed in the fifth."""
+    second = np.zeros(RATE_HZ, dtype=np.float32)
+    blocks = iter([Block(sound=second)] * 5)
+    count = itertools.count(1)
+
+    def push(*_: object, **__: object) -> list[Spoken]:
+        number = next(count)
+        if number == stopped_in_block:
+            shell.stop("in another terminal")
+        return [Spoken(kind="sentence", text="say hello", end_s=2.8)] if number == 5 else []
+
+    ear = SimpleNamespace(
+        replying=False, at_work=True, said=lambda _: None, push=push, finish=list
+    )
+    monkeypatch.setattr(obeying, "sound", lambda _: nullcontext(blocks))
+    talk = Conversation(shell, cast(Ear, ear), recorded=False, confirm=False)
+    talk.run(Listen())
+    shell.robot.wait()
+    assert bool(shell.robot.executive.jobs) is is_done
 
 
 def test_lines_without_a_signal_are_all_done(shell: Shell):

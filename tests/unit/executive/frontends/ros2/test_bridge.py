@@ -367,6 +367,24 @@ def test_a_flood_is_bounded_and_a_stop_goes_past_it(rig):
     rig.until(lambda: not rig.orders._tasks)
 
 
+def test_what_waits_when_the_robot_is_stopped_is_about_that_stop(rig):
+    """A stop goes past the sentences before it: they are handed over after it, and not done."""
+    rig.told.go_on.clear()  # the executive is busy with a line
+    begun = len(rig.told.did)
+    try:
+        rig.orders.say("squat first")
+        assert eventually(lambda: not rig.orders._tasks)  # it is with the executive
+        rig.orders.say("squat later")
+        stops = rig.told.stops
+        rig.orders.press("stop")
+        assert eventually(lambda: rig.told.stops > stops)
+    finally:
+        rig.told.go_on.set()
+    assert eventually(lambda: any("later" in one for one in rig.told.did[begun:]))
+    (later,) = [one for one in rig.told.did[begun:] if "later" in one]
+    assert later == f"squat later ({stops})"  # as of before the stop: a shell does not read it
+
+
 def test_what_is_far_too_long_is_left_out(rig):
     left_out = rig.orders.left_out
     for text in ("x" * (MOST_TEXT + 1), "", "\0\0"):
