@@ -131,9 +131,7 @@ def test_a_stop_while_it_is_recognised_is_about_what_was_said_before_it(
             shell.stop("in another terminal")
         return [Spoken(kind="sentence", text="say hello", end_s=2.8)] if number == 5 else []
 
-    ear = SimpleNamespace(
-        replying=False, at_work=True, said=lambda _: None, push=push, finish=list
-    )
+    ear = SimpleNamespace(replying=False, at_work=True, said=lambda _: None, push=push, finish=list)
     monkeypatch.setattr(obeying, "sound", lambda _: nullcontext(blocks))
     talk = Conversation(shell, cast(Ear, ear), recorded=False, confirm=False)
     talk.run(Listen())
