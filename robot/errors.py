@@ -7,6 +7,7 @@ What a robot could not do is no exception but a value: see `robot.failures`::
     ├── DescriptionError   a robot description and its MJCF disagree
     ├── BusError           a message could not be sent, decoded or trusted
     ├── DriverError        hardware (or its stand-in) did not answer as agreed
+    │   └── DeviceNotAllowed   (a ConfigError, too) a user's configuration does not name a device
     └── ProcessError       a process did not start, or died
 """
 
@@ -40,6 +41,10 @@ class BusError(RobotError):
 
 class DriverError(RobotError):
     """A device did not answer as agreed."""
+
+
+class DeviceNotAllowed(ConfigError, DriverError):
+    """The user's own configuration does not let robots open a device; nothing was opened."""
 
 
 class ProcessError(RobotError):

@@ -219,7 +219,8 @@ def _of_word(
 ) -> Iterator[Misfit]:
     match kind:
         case inspect.LiteralType():
-            if data not in kind.values:
+            # true equals 1 and is none
+            if not any(data == value and type(data) is type(value) for value in kind.values):
                 valid = [str(value) for value in kind.values]
                 text = f"{dotted(path)} cannot be {shown(data)}"
                 yield Misfit(path, text, nearest(str(data), valid))

@@ -14,7 +14,7 @@ import stat
 from pathlib import Path
 from typing import Any, cast
 
-from robot.errors import DriverError
+from robot.errors import DeviceNotAllowed, Problem
 from robot.files import plain_data
 from robot.files.ordinary_files import open_ordinary
 
@@ -36,14 +36,13 @@ def check_device(device: str) -> None:
         device: its path under `/dev`, or the name of a driver that looks for its device by itself.
 
     Raises:
-        DriverError: the user's file does not name it, with the cure.
+        DeviceNotAllowed: the user's file does not name it, with the cure.
     """
     file = folder() / "config.toml"
     if device not in _devices(file):
-        raise DriverError(
-            f"{device} is not opened, since a robot's files may be a stranger's: "
-            f'if it is to be, write devices = ["{device}"] into {file}'
-        )
+        text = f"{device} is not opened, since a robot's files may be a stranger's"
+        cure = f'if it is to be, write devices = ["{device}"] into {file}'
+        raise DeviceNotAllowed([Problem(text, suggestion=cure)])
 
 
 def _devices(file: Path) -> list[object]:

@@ -18,10 +18,11 @@ import msgspec
 
 from executive.frontends.line_server import is_own
 from executive.frontends.remote.invitation import SERVER_NAME, Invitation, client_context
-from executive.frontends.remote.wire import BEAT, BEAT_S, BYE, ECHO
+from executive.frontends.remote.wire import BEAT, BEAT_S, BYE, ECHO, sent
 from executive.frontends.service import messages as m
 from executive.frontends.service import place as places
 from executive.frontends.service.place import Place, Running
+from executive.frontends.since_boot import now_s
 from robot.errors import ConfigError, Problem, ProcessError
 from robot.exit_status import ExitStatus
 
@@ -167,7 +168,7 @@ class Relay:
     # --- those of this machine ---
 
     async def _serve(self, connection: socket.socket) -> None:
-        """A terminal of this machine: each line goes on as it is, and comes back as it is."""
+        """A terminal of this machine: each line goes on, and what is told comes back as it is."""
         reader, writer = await asyncio.open_unix_connection(sock=connection, limit=m.MAX_REQUEST)
         gate: asyncio.StreamWriter | None = None
         try:
@@ -226,8 +227,9 @@ async def _pass_back(reader: asyncio.StreamReader, writer: asyncio.StreamWriter)
 async def _pass_on(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
     """Ask the gate what a terminal asks, until that ends or the gate is too far behind."""
     with suppress(OSError, ValueError):
-        while (data := await reader.readline()).endswith(b"\n") and _written(writer, data):
-            pass
+        while (data := await reader.readline()).endswith(b"\n"):
+            if not _written(writer, sent(data, now_s())):
+                return
 
 
 def _written(writer: asyncio.StreamWriter, data: bytes) -> bool:

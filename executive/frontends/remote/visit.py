@@ -12,9 +12,19 @@ from typing import TYPE_CHECKING, Protocol
 
 import msgspec
 
-from executive.frontends.remote.wire import ANYBODYS, ECHO, Beat, Bye, asked_by, line, refusal
+from executive.frontends.remote.wire import (
+    ANYBODYS,
+    ECHO,
+    Beat,
+    Bye,
+    arrived,
+    asked_by,
+    line,
+    refusal,
+)
 from executive.frontends.service import messages as m
 from executive.frontends.service import place as places
+from executive.frontends.since_boot import now_s
 from robot.errors import RobotError
 from robot.exit_status import ExitStatus
 from robot.printable import printable_line
@@ -171,7 +181,7 @@ class Visit:
         return self._gate.is_good(self._guest)
 
     async def _take(self, asked: m.Request) -> None:
-        asked = asked_by(self._guest.role, asked)
+        asked = arrived(asked_by(self._guest.role, asked), now_s())
         why = refusal(self._guest.role, asked)
         if not why and isinstance(asked, m.Say) and not self._tie.holds:
             why = NO_LINK
@@ -208,8 +218,6 @@ class Visit:
             )
             self._hearing = asyncio.create_task(self._hear(told))
         if isinstance(asked, m.Say):
-            # When it began is of a clock that is not this one.
-            asked = msgspec.structs.replace(asked, begun_s=None, afar=True)
             self._tie.lines.add((self, asked.number))
         self._robot.write(m.line_of(asked))
         await self._robot.drain()

@@ -60,6 +60,37 @@ def asked_by(role: Role, asked: m.Request) -> m.Request:
     return asked
 
 
+def sent(data: bytes, now_s: float) -> bytes:
+    """A line of a terminal as it goes over the link: when that began, by this machine's clock.
+
+    Args:
+        data: the line; what is none goes on as it is.
+        now_s: seconds since boot.
+    """
+    try:
+        asked = m.request(data)
+    except (msgspec.DecodeError, RecursionError):
+        return data
+    if not isinstance(asked, m.Say | m.Watch) or asked.begun_s is None:
+        return data
+    ago_s = min(max(0.0, now_s - asked.begun_s), m.MOST_AGO_S)
+    return m.line_of(msgspec.structs.replace(asked, begun_s=None, ago_s=ago_s))
+
+
+def arrived(asked: m.Request, now_s: float) -> m.Request:
+    """What came over the link, as it is asked of the robot by a terminal of this machine.
+
+    Args:
+        asked: what came.
+        now_s: when that was, in seconds since boot.
+    """
+    if not isinstance(asked, m.Say | m.Watch):
+        return asked
+    begun_s = now_s - (asked.ago_s or 0.0)
+    here = msgspec.structs.replace(asked, begun_s=begun_s, ago_s=None)
+    return msgspec.structs.replace(here, afar=True) if isinstance(here, m.Say) else here
+
+
 def refusal(role: Role, asked: m.Request) -> str:
     """Why a role may not ask something, as a sentence with its cure; empty: it may."""
     match asked:

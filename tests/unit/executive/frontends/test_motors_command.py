@@ -160,6 +160,7 @@ def test_a_bus_of_a_map_is_opened_only_if_the_user_lets_robots_open_it(file, com
     words = [command] if isinstance(command, str) else command
     result = motors(*words, "--map", file)
     assert isinstance(result.exception, DriverError)
+    assert isinstance(result.exception, ConfigError)  # nothing broke: status 2, and its own cure
     assert not Path("new.csv").exists()
     assert 'devices = ["socketcand:tcp.example"]' in str(result.exception)
 

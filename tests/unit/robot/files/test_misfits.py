@@ -17,6 +17,7 @@ class Leaf(msgspec.Struct, forbid_unknown_fields=True):
     torque_nm: quantities.Torque
     count: quantities.Quota = 1
     side: Literal["left", "right"] = "left"
+    sign: Literal[1, -1] = 1
     sizes_m: tuple[quantities.Size, quantities.Size] | None = None
     several: quantities.Several[float] = ()
     on: bool = False
@@ -41,6 +42,9 @@ class Tree(msgspec.Struct, forbid_unknown_fields=True):
         ({"torque_nm": 1, "count": 2.5}, "leaves.a.count is 2.5, and must be a whole number"),
         ({"torque_nm": 1, "count": 0}, "leaves.a.count is 0, and must be from 1 to 10000"),
         ({"torque_nm": 1, "side": "lefd"}, "leaves.a.side cannot be 'lefd'"),
+        ({"torque_nm": 1, "sign": True}, "leaves.a.sign cannot be True"),
+        ({"torque_nm": 1, "sign": 1.0}, "leaves.a.sign cannot be 1.0"),
+        ({"torque_nm": 1, "sign": [1]}, "leaves.a.sign cannot be a list"),
         ({"torque_nm": 1, "sizes_m": [1, -1]}, "leaves.a.sizes_m[1] is -1, and must be from 0.001"),
         ({"torque_nm": 1, "sizes_m": 3}, "leaves.a.sizes_m is 3, and must be a list"),
         ({"torque_nm": 1, "several": [1.0] * 33}, "leaves.a.several has 33 entries, at most 32"),

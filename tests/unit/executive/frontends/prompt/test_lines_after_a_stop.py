@@ -70,8 +70,10 @@ def test_lines_of_a_page_that_wait_do_not_keep_a_robot_up(tmp_path: Path, monkey
                 desk._heed(Order(line=LONG))
             shell.stop("the robot is to be down")
             shell.leave()
-            monkeypatch.setattr(Dialogue, "hear", read_nothing)
-        assert eventually(lambda: not desk._waiting or desk._worker._work_queue.empty())
+            read: list[object] = []
+            monkeypatch.setattr(Dialogue, "hear", lambda *words, **_: read.append(words))
+        assert eventually(lambda: not any(one.is_alive() for one in desk._worker._threads))
+        assert not read
         assert not shell.robot.executive.jobs
 
 

@@ -25,6 +25,7 @@ from executive.frontends.service import place as places
 from executive.frontends.service.client import Connection, Cut, Silent
 from executive.frontends.service.counter import Counter
 from executive.frontends.service.place import Running, claimed
+from executive.frontends.since_boot import now_s
 from robot.errors import ConfigError, RobotError
 from robot.exit_status import ExitStatus
 from tests.fakes.steered import Log, Told
@@ -195,6 +196,16 @@ def test_who_watches_commands_nothing_and_is_told_why(house):
         assert ended.status == ExitStatus.INVALID
         assert "role watch" in words[0]
         assert house.told.did == []
+
+
+def test_a_stop_covers_what_was_asked_for_before_it_and_comes_after_it(house):
+    """A terminal that was slow to start, at whose machine the clock is another one."""
+    with house.visited() as (place, _):
+        before_s = now_s()
+        assert ask(place, m.Press(button="stop"))[0].status == ExitStatus.DONE
+        ask(place, m.Say(text="go to the table", begun_s=before_s))
+        ask(place, m.Say(text="go to the shelf", begun_s=now_s()))
+        assert house.told.did == ["stop", "go to the table (0)", "go to the shelf (1)"]
 
 
 def test_who_watches_stops_by_a_line_and_sets_nothing_going(house):

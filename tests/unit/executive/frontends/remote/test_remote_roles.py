@@ -71,6 +71,21 @@ def test_lines_over_the_link_are_what_they_were(asked):
     assert wire.line(msgspec.json.encode(asked)) == asked
 
 
+@pytest.mark.parametrize(("there_s", "here_s"), [(1e6, 50.0), (10.0, 1e7)])
+def test_when_it_was_asked_for_is_told_by_how_long_ago_that_was(there_s, here_s):
+    for asked in (m.Say(text="wave", begun_s=there_s - 2.0), m.Watch(begun_s=there_s - 2.0)):
+        came = wire.line(wire.sent(m.line_of(asked), there_s))
+        assert came.begun_s is None
+        assert wire.arrived(came, here_s).begun_s == pytest.approx(here_s - 2.0)
+
+
+def test_a_clock_that_comes_over_the_link_is_none_of_this_machine():
+    assert wire.arrived(m.Say(text="wave", begun_s=1e9), 50.0).begun_s == 50.0
+    assert wire.arrived(m.Say(text="wave"), 50.0).afar
+    assert wire.arrived(m.Status(number=1), 50.0) == m.Status(number=1)
+    assert wire.sent(b"nonsense\n", 50.0) == b"nonsense\n"
+
+
 @pytest.mark.parametrize("data", [b"", b"{}", b'{"ask":"beat","x":1}', b"[" * 5000, b'"\xff"'])
 def test_other_lines_are_none(data):
     with pytest.raises((msgspec.DecodeError, RecursionError)):
