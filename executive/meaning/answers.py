@@ -91,7 +91,7 @@ def not_looked_over(
 ) -> str:
     """Those surfaces, or of all, of which not enough has been in view, or nothing.
 
-    Those of a room are told together.
+    Where they are in several rooms the rooms are told.
     """
     world = board.read(WORLD)
     every = surfaces_of(world_map) if surfaces is None else surfaces
@@ -99,14 +99,15 @@ def not_looked_over(
     survey.take(world.looked if world is not None else ())
     missed = [place for place in survey.places if survey.seen_share(place) < ENOUGH]
     rooms = {place.id: place for place in world_map.places if place.floor}
+    several = len({place.room for place in survey.places}) > 1
     names: dict[str, None] = {}
     for place in missed:
         room = rooms.get(place.room)
-        whole = room is not None and all(
-            other in missed for other in survey.places if other.room == place.room
-        )
-        several = len({other.room for other in survey.places}) > 1
-        names[f"the {room.name if room and whole and several else place.name}"] = None
+        if room is None or not several:
+            names[f"the {place.name}"] = None
+            continue
+        whole = all(other in missed for other in survey.places if other.room == place.room)
+        names[f"the {room.name}" if whole else f"parts of the {room.name}"] = None
     return listing(list(names), "and")
 
 

@@ -8,6 +8,7 @@ import msgspec
 import pytest
 
 from executive.blackboard import GIVEN, HELD, WORLD, Blackboard
+from executive.meaning.answers import not_looked_over
 from executive.meaning.request import Refused, Setting, Understood, meant, request
 from executive.meaning.robot_state import state_of
 from executive.skills.give import GiveParams
@@ -111,6 +112,7 @@ def board(
     at: tuple[float, float] = (0.0, 1.0),
     left: str = "",
     given: str = "",
+    looked: tuple[m.Looked, ...] = (),
     **things: tuple[float, float],
 ) -> Blackboard:
     """What is believed: the robot at a point, things at points of the surface they are over.
@@ -123,7 +125,9 @@ def board(
         for name, (x_m, y_m) in things.items()
     )
     X_WB = SE3.from_xy_yaw(*at, 0.5 * math.pi)
-    state = m.WorldState(stamp_s=1.0, X_WN=SE3(), X_WB=X_WB, fix_age_s=0.0, tracks=tracks)
+    state = m.WorldState(
+        stamp_s=1.0, X_WN=SE3(), X_WB=X_WB, fix_age_s=0.0, tracks=tracks, looked=looked
+    )
     sense = blackboard.claim("sense")
     sense.set(WORLD, state)
     sense.set(HELD, {"left": left} if left else {})
@@ -439,6 +443,29 @@ def test_a_count_in_a_room_says_what_could_not_be_seen():
     assert dict(look.handlers).keys() == {"place_not_seen"}  # the top of the fridge, say
     told = tell.params(board()).text
     assert told.startswith("I see 0 boxes in the kitchen. I have not seen all of the ")
+
+
+def test_what_was_not_looked_at_is_told_by_rooms_where_there_are_several():
+    """What the world model lists is not all seen: it says of each sample when, if ever."""
+    kitchen = [place for place in WHERE.world.map.places if not place.floor]
+    desk, bench = (msgspec.structs.replace(kitchen[0], id=name, name=name, room="hall")
+                   for name in ("desk", "bench"))  # fmt: skip
+
+    def missed(*seen: str, of: list[m.Place]) -> str:
+        looked = tuple(
+            m.Looked(
+                place_id=one.id,
+                seen_s=(5.0 if one.id in seen else -math.inf,) * len(one.samples()),
+            )
+            for one in of
+        )
+        return not_looked_over(board(looked=looked), WHERE.world.map, of)
+
+    assert missed("counter", of=kitchen[:2]) == "the table"
+    both = [*kitchen[:2], desk, bench]
+    assert missed(of=both) == "the kitchen and the hall"
+    assert missed("counter", "desk", "bench", of=both) == "parts of the kitchen"
+    assert missed(*(place.id for place in both), of=both) == ""
 
 
 def test_what_a_condition_found_is_taken_from_where_it_is_said_to_be():

@@ -34,6 +34,13 @@ def test_what_the_world_model_has_seen_is_not_left() -> None:
     assert len(survey.left) == 0
 
 
+def test_what_was_never_seen_is_not_seen_however_far_back_it_counts() -> None:
+    desk = place("desk")
+    survey = survey_of(desk, since_s=-math.inf)
+    survey.take([looked(desk, 5.0, share=0.4)])
+    assert survey.seen_share(desk) == pytest.approx(0.4, abs=0.05)
+
+
 def test_what_was_seen_too_long_ago_is_left() -> None:
     desk = place("desk")
     survey = survey_of(desk, since_s=10.0)
