@@ -82,7 +82,7 @@ def controller() -> Rows:
         ],
         [
             "a command that is not finite",
-            f"sends the last good one; damps from the {many}rd in a row, latched",
+            f"sends the last good one; damps at {many} in a row, latched",
             f"{period_ms:g} ms; {many * period_ms:g} ms",
         ],
         [

@@ -19,6 +19,8 @@ from robot.se3 import Array
 
 LONGEST_PERIODS = 10
 """20 ms at 500 Hz: what simulators train for (docs/realities.md), and when the watchdog damps."""
+AGES = LONGEST_PERIODS + 1
+"""Of commands that may be in force, in periods from 0."""
 LOOK_EVERY = 4
 """Of so many periods one change of torques is looked at: enough, and half the time."""
 CLEAR = 0.05
@@ -43,21 +45,20 @@ class Latency:
             period_s: of the bus.
         """
         self.delay_s = 0.0
-        rows, self._period_s = LONGEST_PERIODS + 1, period_s
-        self._rows = rows
+        self._period_s = period_s
         self._limit_nm, self._inverse = torque_limit_nm, 1.0 / torque_limit_nm
         # Feedforward, kp, kd of what was told; rows are kept twice: any window of ages is a view.
-        self._told: Array = np.zeros((3, 2 * rows, len(torque_limit_nm)))
+        self._told: Array = np.zeros((3, 2 * AGES, len(torque_limit_nm)))
         self._last: MotorState | None = None
         self._error: Array | None = None
         self._row = 0
         self._periods = 0
-        self._against: Array = np.zeros(rows)
+        self._against: Array = np.zeros(AGES)
         self._command: MotorCommand | None = None
 
     def told(self, command: MotorCommand) -> None:
         """What is sent in this period; a command may be sent again."""
-        before, self._row = self._row, (self._row + 1) % self._rows
+        before, self._row = self._row, (self._row + 1) % AGES
         told = self._told[:, self._row]
         if command is self._command:
             told[:] = self._told[:, before]
@@ -67,7 +68,7 @@ class Latency:
             told[0] += command.kd * command.qd_des
             told[0] += command.tau_ff
             told[1], told[2] = command.kp, command.kd
-        self._told[:, self._row + self._rows] = told
+        self._told[:, self._row + AGES] = told
 
     def felt(self, state: MotorState) -> None:
         """What the motors measured after that, before the next command is told.
@@ -95,8 +96,8 @@ class Latency:
 
     def _owed(self, last: MotorState, state: MotorState) -> Array:
         """What motors give under each age of command between two measurements [N m], (ages, n)."""
-        newest = self._row + self._rows
-        feedforward, kp, kd = self._told[:, newest : newest - self._rows : -1]
+        newest = self._row + AGES
+        feedforward, kp, kd = self._told[:, newest : newest - AGES : -1]
         torque = kp * (-0.5 * (last.q + state.q))
         torque += kd * (-0.5 * (last.qd + state.qd))
         torque += feedforward

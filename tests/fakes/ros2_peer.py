@@ -117,14 +117,14 @@ class Peer:
             attachment = struct.pack("<qqB", number + 1, time.time_ns(), 16) + bytes(16)
             self._session.put(key, data, attachment=attachment)
 
-    def ask(self, token, request, *, number=1, attached=True):
+    def ask(self, token, request, *, number=1, attached=True, within_s=20.0):
         """Ask a service as a node of rmw_zenoh does; the channel of what is answered."""
         data = request if isinstance(request, bytes) else written(ASK, request)
         attachment = struct.pack("<qqB", number, time.time_ns(), 16) + bytes(range(16))
         return self._session.get(
             token.key, payload=data, attachment=attachment if attached else None,
             target=zenoh.QueryTarget.ALL_COMPLETE, consolidation=zenoh.ConsolidationMode.NONE,
-            timeout=20.0,
+            timeout=within_s,
         )  # fmt: skip
 
     def twist(self, forward=0.0, left=0.0, turn=0.0):

@@ -1,8 +1,9 @@
-"""`/plan_trajectory`: the way that the robot would walk, planned as its skills do; none is walked.
+"""`/plan_trajectory`: a way for the robot, by the planner of its skills; none is walked.
 
 A request without a frame at its start means from where the robot stands. A goal where it could not
 stand is tried about, as far as the request tolerates. What has no way is answered by an empty plan
-(as of Nav2's planners), and `said` tells why.
+(as of Nav2's planners), and `said` tells why. What skills add of their own is not in it: a wider
+berth around people, and turning to face the way.
 """
 
 from __future__ import annotations

@@ -44,4 +44,4 @@ ESTOP = Topic("estop", "std_msgs/msg/Empty", Qos(depth=1))
 CMD_VEL = Topic("cmd_vel", "geometry_msgs/msg/Twist", Qos(depth=1))
 
 PLAN = Topic("plan_trajectory", "nav_msgs/srv/GetPlan", STREAM)
-"""A service: which way the robot would walk. STREAM is the default of services as well."""
+"""A service: a way for the robot, which it does not walk. STREAM is the default of services."""

@@ -156,6 +156,16 @@ def test_who_does_not_say_who_asks_is_not_answered(asking):
     assert list(replies) == []  # it ended unanswered
 
 
+def test_who_asked_and_has_gone_holds_nobody_up(asking):
+    replies = asking.peer.ask(asking.token, get_plan(HERE, pose(0.5, 0.0)), within_s=0.5)
+    taken = []
+    assert eventually(lambda: taken.append(asking.plans._take()) or taken[-1] is not None)
+    for reply in replies:  # until they wait no more
+        assert reply.ok is None
+    taken[-1].answer({"plan": {}})
+    assert asking(get_plan(HERE, pose(0.5, 0.0)))[0][-1] == pytest.approx((0.5, 0.0))
+
+
 def test_a_flood_leaves_the_newest(asking):
     asked = [
         asking.peer.ask(asking.token, get_plan(HERE, pose(0.5, 0.0)), number=n) for n in range(100)
