@@ -37,6 +37,8 @@ ADDRESS_SPACE = 3 << 30
 """Bytes: keeps a case from eating the machine; what it may use is judged by its resident memory."""
 BROKEN = 99
 """Status of a case that did not even begin: a mistake of the examination."""
+MOVING_S = 30
+"""Processor time that a case may take beyond what is asked of it, if it moves a robot: judge.py."""
 MOST_OUTPUT = 32 << 20
 POLL_S = 0.05
 QUIET_POLLS = 120
@@ -108,7 +110,8 @@ def _private_shm(content: str) -> None:
 
 
 def _limit(job: Job) -> None:
-    resource.setrlimit(resource.RLIMIT_CPU, (job.cpu_s + 1, job.cpu_s + 2))
+    most_s = job.cpu_s + MOVING_S
+    resource.setrlimit(resource.RLIMIT_CPU, (most_s, most_s + 1))
     resource.setrlimit(resource.RLIMIT_AS, (ADDRESS_SPACE, ADDRESS_SPACE))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 30, 1 << 30))

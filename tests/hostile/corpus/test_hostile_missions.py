@@ -227,7 +227,7 @@ ACCEPTABLE = {
 What is taken may be carried out. White space in a text of a mission is one space, so that a name has
 one line whatever was written.
 """
-SIMULATED_S = 12
+SIMULATED_S = 30
 """Of processor time: a mission that is carried out takes 2 s on an idle machine."""
 
 TEXTS: dict[str, str | bytes | Make] = {

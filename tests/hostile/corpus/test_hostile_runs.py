@@ -21,7 +21,7 @@ from tests.hostile.corpus.shapes import (
 )
 from tests.hostile.exam import exam
 
-SIMULATED_S = 12
+SIMULATED_S = 30
 """Of processor time: a run that is done again takes 2 s on an idle machine."""
 Change = Callable[[Path], None]
 FRONTS: dict[str, tuple[str, ...]] = {
