@@ -2,7 +2,7 @@
 # ARGS="..." goes to the program that the target runs.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help demo test hostile check format bench eval bench-intents bench-speech train train-detector lock clean env env-dev
+.PHONY: help demo test test-all hostile check format bench eval bench-intents bench-speech train train-detector lock clean env env-dev
 
 PYTHON ?=
 ARGS ?=
@@ -18,7 +18,10 @@ demo: env ## set up, watch a humanoid put the red cup on the shelf, also on a pa
 	[[ $$status -gt 1 ]] || $(BIN)/humanoid film; exit $$status
 
 test: env-dev ## set up, then run the tests (ARGS="-k walk" for some)
-	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile $(ARGS)
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder $(ARGS)
+
+test-all: env-dev ## all that there is: `make test`, the rest of its campaigns, every hostile input
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder --all $(ARGS)
 
 hostile: env-dev ## every hostile input; `make test` takes a share of them
 	@$(BIN)/python -m pytest --numprocesses auto --hostile-all tests/hostile $(ARGS)

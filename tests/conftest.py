@@ -4,10 +4,17 @@ Tests run side by side (`make test`), each on one core. Those marked `live` have
 own that keep time by the wall clock: while one of them runs, none of the others does. What else the
 machine does meanwhile is not in our hands; so a live test that fails while much of the machine went
 to others is skipped, with the figure.
+
+What takes long and shows again what others show in less (a fourth direction, an errand of parts
+that are shown one by one) is marked `rest` and left out of a plain run; `--all`, `-k`, or the name
+of its file runs it.
 """
 
 import fcntl
+import os
+import sys
 from collections.abc import Generator
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
@@ -19,6 +26,11 @@ from tests.fakes.machine import Others
 settings.register_profile("repeatable", deadline=None, derandomize=True, print_blob=True)
 settings.load_profile("repeatable")
 
+# The programs that tests start are read from bytecode, whatever the shell wishes for what it
+# starts: compiled anew each time, they take half as long again.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
+
 MOST_FOR_OTHERS = 0.15
 """Share of the machine beyond which the robot may notice that it is not given its time."""
 
@@ -29,6 +41,40 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     """What only some runs want; here, as pytest asks the topmost conftest only."""
     whole = "every case of tests/hostile, of which a share is run otherwise"
     parser.addoption("--hostile-all", action="store_true", help=whole)
+    rest = "what is marked `rest` as well, and every case of tests/hostile"
+    parser.addoption("--all", action="store_true", dest="everything", help=rest)
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out the rest unless it is asked for, and put first what would be a long tail.
+
+    Workers take file by file: what has the machine alone, what takes long, then the many small.
+    """
+    if not _asks_for_all(config):
+        rest = [item for item in items if item.get_closest_marker("rest")]
+        config.hook.pytest_deselected(items=rest)
+        items[:] = [item for item in items if not item.get_closest_marker("rest")]
+    if hasattr(config, "workerinput"):
+        places: dict[Path, int] = {}
+        for item in items:
+            places[item.path] = min(places.get(item.path, len(LENGTHS)), _place(item))
+        items.sort(key=lambda item: places[item.path])
+
+
+def _asks_for_all(config: pytest.Config) -> bool:
+    named = any(".py" in word for word in config.args)
+    return bool(named or config.getoption("everything") or config.getoption("keyword"))
+
+
+LENGTHS = ("live", "scenario", "hostile", "contract")
+"""What is begun first: tests of that mark, or of that folder."""
+
+
+def _place(item: pytest.Item) -> int:
+    if _is_live(item):
+        return 0
+    folders = item.path.relative_to(item.config.rootpath).parts
+    return next((k for k, name in enumerate(LENGTHS) if name in folders), len(LENGTHS))
 
 
 def _is_live(item: pytest.Item) -> bool:

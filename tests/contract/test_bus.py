@@ -46,7 +46,7 @@ def subscribe(sender: Bus, receiver: Bus, topic: topics.Topic, probe: Message):
     """Subscribe, wait until the other end knows, and take every probe that was on its way."""
     reader = receiver.subscribe(topic)
     assert eventually(lambda: (sender.publish(topic, probe), reader.latest)[1] is not None)
-    for attempt in range(1, 6):  # a flood of probes may have cost the marker, too
+    for attempt in range(1, 61):  # a flood of probes may have cost the marker, too
         last = msgspec.structs.replace(probe, stamp_s=-float(attempt))
         sender.publish(topic, last)
         if eventually(lambda last=last: last in reader.take(), within_s=1.0):

@@ -7,6 +7,7 @@ from collections import deque
 import numpy as np
 
 from robot.drivers.camera.librealsense import Frame, Lens
+from tests.fakes.waiting import HANG_S
 
 
 class FakeCapture:
@@ -24,9 +25,9 @@ class FakeCapture:
 
     def show(self, pixels: np.ndarray) -> None:
         """Put a picture before it, and wait until the driver has taken it and asks for the next."""
-        assert self._asked.acquire(timeout=20.0)
+        assert self._asked.acquire(timeout=HANG_S)
         self._pictures.put(pixels)
-        assert self._asked.acquire(timeout=20.0)
+        assert self._asked.acquire(timeout=HANG_S)
         self._asked.release()
 
     def unplug(self) -> None:

@@ -20,14 +20,16 @@ TICKS_A_SECOND = os.sysconf("SC_CLK_TCK")
 STEPS = 10_000
 
 
-def in_paces(work: Callable[[], object], *, tries: int = 7) -> float:
+def in_paces(work: Callable[[], object], *, tries: int = 7, warm: bool = False) -> float:
     """How many times as long as a plain loop of 10,000 steps some work takes on this machine now.
 
     Both are measured in turns, in processor time of this thread, and the least of each counts:
     so neither the machine's make nor what else it does changes the figure much. A pace is some
-    0.4 ms of a core that has nothing else to do.
+    0.4 ms of a core that has nothing else to do. `warm`: whether the work was done once before, so
+    that what is made the first time is not counted.
     """
-    work()
+    if not warm:
+        work()
     took_s, pace_s = list[float](), list[float]()
     for _ in range(tries):
         began_s = time.thread_time()

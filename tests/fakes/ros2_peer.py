@@ -18,6 +18,8 @@ import zenoh
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from zenoh.ext import HistoryConfig, RecoveryConfig, declare_advanced_subscriber
 
+from tests.fakes.waiting import HANG_S
+
 STORE = get_typestore(Stores.ROS2_JAZZY)
 EMPTY = "std_msgs/msg/Empty"
 ASK, ANSWER = "nav_msgs/msg/GetPlan_Request", "nav_msgs/msg/GetPlan_Response"
@@ -117,7 +119,7 @@ class Peer:
             attachment = struct.pack("<qqB", number + 1, time.time_ns(), 16) + bytes(16)
             self._session.put(key, data, attachment=attachment)
 
-    def ask(self, token, request, *, number=1, attached=True, within_s=20.0):
+    def ask(self, token, request, *, number=1, attached=True, within_s=HANG_S):
         """Ask a service as a node of rmw_zenoh does; the channel of what is answered."""
         data = request if isinstance(request, bytes) else written(ASK, request)
         attachment = struct.pack("<qqB", number, time.time_ns(), 16) + bytes(range(16))

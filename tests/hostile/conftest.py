@@ -10,7 +10,7 @@ from tests.hostile.exam import Examiner
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Leave out what is not in the share, unless all is asked for, or some by name."""
-    if config.getoption("--hostile-all") or config.getoption("keyword"):
+    if any(config.getoption(name) for name in ("--hostile-all", "everything", "keyword")):
         return
     rest = [item for item in items if item.get_closest_marker("hostile_rest")]
     config.hook.pytest_deselected(items=rest)

@@ -86,7 +86,7 @@ def broken(case: Case, result: Result, folder: Path) -> list[str]:
 
 
 def _moved_s(result: Result) -> float:
-    """Robot time that was simulated, as the command tells it: what moved a robot may take as much."""
+    """Robot time that was simulated, as the command tells it: it may take as much."""
     return sum(float(told) for told in MOVED.findall(result.out))
 
 

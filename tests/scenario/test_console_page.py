@@ -76,9 +76,15 @@ def until(so):
 
 
 @pytest.fixture(scope="module")
-def browser():
+def opened():
     with Browser() as made:
         yield made
+
+
+@pytest.fixture
+def browser(opened):
+    yield opened
+    opened.close_pages()
 
 
 @pytest.fixture

@@ -15,7 +15,12 @@ from tests.fakes.waiting import eventually
 
 
 @pytest.mark.parametrize(
-    ("number", "times"), [(signal.SIGINT, 1), (signal.SIGINT, 2), (signal.SIGHUP, 1)]
+    ("number", "times"),
+    [
+        (signal.SIGINT, 1),
+        pytest.param(signal.SIGINT, 2, marks=pytest.mark.rest),
+        (signal.SIGHUP, 1),
+    ],
 )
 def test_a_signal_to_all_of_it_ends_it_and_says_how_to_go_on(tmp_path, number, times):
     words = ["eval", "--faults", "object gone", "--seeds", "2", "-j", "2"]

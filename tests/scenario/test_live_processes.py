@@ -23,7 +23,7 @@ from robot.errors import ConfigError
 from robot.messages import LoopTiming, WalkTo
 from robot.model import description
 from sim.simulation import Simulation
-from tests.fakes.waiting import eventually
+from tests.fakes.waiting import HANG_S, eventually
 
 pytestmark = pytest.mark.live
 
@@ -108,7 +108,7 @@ def test_without_a_spare_the_motors_damp_until_the_robot_is_told_to_stand(live: 
         state = reader.read()
         limits = [motor.torque_limit_nm for motor in robot.motors.values()]
         assert all(abs(tau) <= limit * 1.05 for tau, limit in zip(state.tau, limits, strict=True))
-    until_s = time.monotonic() + 20.0
+    until_s = time.monotonic() + HANG_S
     while live.link.body().since_s == 0.0 and time.monotonic() < until_s:
         live.advance(0.05)
     body = live.link.body()
@@ -124,7 +124,7 @@ def test_a_stopped_controller_damps_says_how_long_and_must_be_armed_again(live: 
     os.kill(pid, signal.SIGSTOP)
     live.advance(0.5)
     os.kill(pid, signal.SIGCONT)
-    until_s = time.monotonic() + 5.0
+    until_s = time.monotonic() + HANG_S
     while live.link.body().mode == "stand" and time.monotonic() < until_s:
         live.advance(0.05)
     body = live.link.body()

@@ -96,6 +96,7 @@ def test_a_stop_reaches_a_robot_whose_executive_is_killed_and_nothing_goes_on(hu
 
 
 @pytest.mark.live
+@pytest.mark.rest
 def test_a_prompt_that_is_attached_shows_it_at_work_and_leaves_it_so(humanoid, monkeypatch):
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(humanoid.folder))
     assert humanoid("up", "--detach", "--world", "empty")[0] == 0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import cycle
 from typing import Any
@@ -70,11 +71,11 @@ def flow(value: Any) -> str:
     """A value as JSON, which is YAML too, but for what is raw."""
     if isinstance(value, Raw):
         return value.text
+    with suppress(TypeError):  # something raw in it; without, a library is 50 times as fast
+        return json.dumps(value)
     if isinstance(value, dict):
         return "{" + ", ".join(f"{json.dumps(k)}: {flow(v)}" for k, v in value.items()) + "}"
-    if isinstance(value, list):
-        return "[" + ", ".join(map(flow, value)) + "]"
-    return json.dumps(value)
+    return "[" + ", ".join(map(flow, value)) + "]"
 
 
 def document(value: dict[str, Any]) -> str:
@@ -84,13 +85,11 @@ def document(value: dict[str, Any]) -> str:
 
 def changed(value: Any, path: str, new: Any) -> Any:
     """A copy in which what stands at a path, as `objects.0.mass_kg`, is another."""
-    value = copy.deepcopy(value)
-    *way, last = [int(key) if key.isdigit() else key for key in path.split(".")]
-    inner = value
-    for key in way:
-        inner = inner[key]
-    inner[last] = new
-    return value
+    key, dot, rest = path.partition(".")
+    inner = copy.copy(value)  # only along the path: the rest is shared, and nobody changes it
+    place = int(key) if key.isdigit() else key
+    inner[place] = changed(value[place], rest, new) if dot else new
+    return inner
 
 
 def field_of(path: str) -> str:

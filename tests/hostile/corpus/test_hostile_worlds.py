@@ -1,5 +1,6 @@
 """Worlds: one value that is not, bombs, and floods."""
 
+from functools import cache
 from typing import Any
 
 from tests.hostile.cases import Case, Expect, Make, link
@@ -120,6 +121,7 @@ def _turn(index: int) -> str:
     return _fronts[index % len(_fronts)]
 
 
+@cache  # for two fronts each
 def _many(key: str, count: int) -> str:
     entries: dict[str, list[dict[str, Any]]] = {
         "rooms": [

@@ -20,7 +20,7 @@ def break_down(rig: Rig, *alarms: MotorAlarm) -> None:
     rig.plant.read = reading
 
 
-@pytest.mark.parametrize("walks", [False, True])
+@pytest.mark.parametrize("walks", [pytest.param(False, marks=pytest.mark.rest), True])
 def test_it_squats_within_seconds_and_stays_there_on_its_feet(walks):
     rig = Rig(seed=2)
     assert rig.run(0.3)

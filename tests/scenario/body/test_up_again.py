@@ -42,7 +42,10 @@ def get_up(rig):
     return rig.time_s - begun_s
 
 
-@pytest.mark.parametrize(("towards_deg", "walking"), [(90.0, False), (-125.0, True)])
+@pytest.mark.parametrize(
+    ("towards_deg", "walking"),
+    [pytest.param(90.0, False, marks=pytest.mark.rest), (-125.0, True)],
+)
 def test_it_gets_up_stands_and_walks(towards_deg, walking):
     rig = fallen(towards_deg, walking=walking)
     get_up(rig)

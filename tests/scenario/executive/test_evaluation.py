@@ -90,6 +90,7 @@ def test_a_campaign_tells_the_right_ends_from_the_wrong_ones_and_is_resumed(tmp_
 
 
 @pytest.mark.slow
+@pytest.mark.rest
 def test_the_same_campaign_on_a_local_ray(tmp_path):
     pytest.importorskip("ray", reason="Ray is not installed (pip install humanoid-executive[ray])")
     status, found = evaluate(tmp_path, "--ray")

@@ -73,6 +73,7 @@ def test_a_cup_is_handed_over_because_the_pull_is_felt_and_the_person_keeps_it()
 
 
 @pytest.mark.slow
+@pytest.mark.rest
 def test_after_a_hand_over_is_called_off_it_backs_away_and_walks():
     where = setting(takes=False, steps_aside=False, answers="")
     setup = Setup(where=where, seed=1)
@@ -99,6 +100,7 @@ def test_after_a_hand_over_is_called_off_it_backs_away_and_walks():
 
 
 @pytest.mark.slow
+@pytest.mark.rest
 def test_who_waves_after_a_hand_over_was_called_off_backs_away_and_into_nothing():
     where = setting(takes=False, steps_aside=False, answers="")
     setup = Setup(where=where, seed=1)

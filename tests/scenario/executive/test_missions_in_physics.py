@@ -12,6 +12,8 @@ from executive.missions.load import FOLDER, shipped
 from tests.fakes.missions import check
 
 LONG = ("bring", "tidy", "greet", "patrol")
+REST = ("bring", "tidy", "patrol")
+"""Errands of a minute: what they are made of, skills_in_physics and the others show one by one."""
 
 
 def run(name: str, folder, first: str = "") -> int:
@@ -25,7 +27,13 @@ def events(folder) -> list[dict]:
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(path.stem, marks=pytest.mark.slow if path.stem in LONG else ())
+        pytest.param(
+            path.stem,
+            marks=[
+                *([pytest.mark.slow] if path.stem in LONG else []),
+                *([pytest.mark.rest] if path.stem in REST else []),
+            ],
+        )
         for path in shipped()
     ],
 )

@@ -161,6 +161,7 @@ def test_a_cup_pulled_out_of_the_hand_is_noticed(planner):
 
 
 @pytest.mark.slow
+@pytest.mark.rest
 def test_a_cup_that_is_pulled_at_is_held_by_gripping_harder(planner):
     """Otherwise it would be gone (docs/control.md); a pull of 60 N takes it, see above."""
     world = msgspec.structs.replace(load_world("kitchen"), start=Start(at_m=(0.6, 0.1)))
@@ -184,6 +185,7 @@ def test_a_cup_that_is_pulled_at_is_held_by_gripping_harder(planner):
 
 
 @pytest.mark.slow
+@pytest.mark.rest
 def test_a_cup_that_is_knocked_over_is_taken_as_it_lies(planner):
     world = msgspec.structs.replace(
         load_world("kitchen"), start=Start(at_m=(1.1, -0.6), yaw_deg=90)

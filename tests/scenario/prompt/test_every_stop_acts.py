@@ -8,7 +8,7 @@ from benchmarks.prompt_stops import tries
 
 pytestmark = pytest.mark.live
 
-TRIES = 40
+TRIES = 15
 """Of the thousand that `python -m benchmarks.prompt_stops` makes."""
 
 

@@ -54,6 +54,7 @@ def test_the_prompt_survives_its_executive(tmp_path: Path):
 
 
 @pytest.mark.slow
+@pytest.mark.rest
 def test_what_the_robot_was_told_holds_for_the_executive_that_takes_over(tmp_path: Path):
     run = tmp_path / "run"
     with Terminal("repl", "--world", "empty", "--run-dir", str(run), folder=tmp_path) as terminal:
@@ -77,6 +78,7 @@ def test_what_the_robot_was_told_holds_for_the_executive_that_takes_over(tmp_pat
 
 
 @pytest.mark.slow
+@pytest.mark.rest
 def test_what_is_typed_while_the_executive_is_replaced_is_heard(tmp_path: Path):
     run = tmp_path / "run"
     with Terminal("repl", "--world", "empty", "--run-dir", str(run), folder=tmp_path) as terminal:
@@ -101,6 +103,7 @@ def test_what_is_typed_while_the_executive_is_replaced_is_heard(tmp_path: Path):
 
 
 @pytest.mark.slow
+@pytest.mark.rest
 def test_who_leaves_while_the_executive_is_replaced_leaves(tmp_path: Path):
     run = tmp_path / "run"
     with Terminal("repl", "--world", "empty", "--run-dir", str(run), folder=tmp_path) as terminal:
@@ -114,6 +117,7 @@ def test_who_leaves_while_the_executive_is_replaced_leaves(tmp_path: Path):
 
 
 @pytest.mark.slow
+@pytest.mark.rest
 def test_a_term_while_the_executive_is_replaced_ends_the_prompt_that_comes_back(tmp_path: Path):
     run = tmp_path / "run"
     with Terminal("repl", "--world", "empty", "--run-dir", str(run), folder=tmp_path) as terminal:

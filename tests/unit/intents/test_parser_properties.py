@@ -93,7 +93,7 @@ syllables = st.lists(
 ).map("".join)
 
 
-@settings(max_examples=60, deadline=1000)
+@settings(max_examples=60)
 @given(syllables, st.sampled_from([s for s in HANDLING if "thermos" in s]))
 def test_renaming_an_object_changes_only_the_name(name: str, said: str) -> None:
     if name in GRAMMAR_WORDS | COMMON_WORDS:

@@ -82,6 +82,7 @@ def test_what_is_judged_was_never_learnt() -> None:
     assert len({family(kind) for kind in STRANGERS}) >= 6
 
 
+@pytest.mark.rest
 def test_networks_learn_and_their_files_answer_as_they_do(frame: Frame, tmp_path: Path) -> None:
     jax = pytest.importorskip("jax", reason="the extra `train` is not installed")
     pytest.importorskip("onnx", reason="the extra `dev` is not installed")

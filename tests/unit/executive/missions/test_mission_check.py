@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 
 import jsonschema
 import pytest
@@ -24,9 +23,11 @@ from executive.skills.wait import WaitParams
 from executive.trees import parts as p
 from robot.errors import ConfigError
 from robot.files import yaml_nodes
+from tests.fakes.machine import in_paces
 from tests.fakes.missions import check, known_settings  # noqa: F401, a fixture
 
-SECOND = 1.0
+SECOND = 2500
+"""In paces, as no test is to fail because the machine is slow or busy (tests/fakes/machine.py)."""
 
 
 @pytest.fixture
@@ -408,18 +409,12 @@ HOSTILE = {
 }  # fmt: skip
 
 
-def cpu_s(work) -> float:
-    begun_s = time.process_time()
-    work()
-    return time.process_time() - begun_s
-
-
 @pytest.mark.parametrize("name", [n for n in HOSTILE if n not in ("rounds of rounds",)])
 def test_hostile_files_are_refused_whole_and_fast(name, write):
     path = write(HOSTILE[name])
     check(shipped()[0])  # what is built once a process is built
     found: list[str] = []
-    assert cpu_s(lambda: found.extend(problems(path))) < 3.0 * SECOND  # the machine is shared
+    assert in_paces(lambda: found.extend(problems(path)), tries=1, warm=True) < 3 * SECOND
     assert 1 <= len(found) <= 100
     assert all(len(text) < 600_000 for text in found)
 
@@ -432,7 +427,7 @@ def test_a_file_of_100_mb_is_not_read(tmp_path):
     path = tmp_path / "big.yaml"
     with path.open("wb") as file:
         file.truncate(100_000_000)
-    assert cpu_s(lambda: problems(path)) < SECOND
+    assert in_paces(lambda: problems(path), tries=1) < SECOND
     assert "larger than 2 MB" in problems(path)[0]
 
 
@@ -461,10 +456,10 @@ def test_10_000_steps_are_checked_in_a_second(write):
     goals = ["{pick: red cup}", "{place: {object: it, on: table}}", "{say: hello}",
              "walk to the table", "{go_to: {place: counter}, retry: 1}"]  # fmt: skip
     path = write(mission("".join(f"  - {step}\n" for step in goals * 2000)))
-    check(path)
-    spans_s = [cpu_s(lambda: check(path)) for _ in range(3)]
-    assert len(list(p.errands(check(path).task))) == 10_000
-    assert min(spans_s) < 2.0 * SECOND  # 0.6 s on a quiet machine (docs/missions.md)
+    checked = []
+    paces = in_paces(lambda: checked.append(check(path)), tries=2)
+    assert len(list(p.errands(checked[-1].task))) == 10_000
+    assert paces < 2 * SECOND  # 0.6 s on a quiet machine (docs/missions.md)
 
 
 SAMPLES = [path.read_text() for path in shipped()]

@@ -118,6 +118,7 @@ def higher(spoken, factor):
     return np.interp(at, np.arange(len(spoken)), spoken).astype(np.float32)
 
 
+@pytest.mark.rest
 def test_voices_are_told_apart():
     recogniser = Sphinx(KITCHEN)
     for _ in range(2):

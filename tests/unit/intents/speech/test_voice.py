@@ -10,7 +10,7 @@ from intents.speech import voice as module
 from intents.speech.audio import AudioError
 from intents.speech.voice import Silence, Synthesiser, voice
 
-NEVER_S = 20.0
+NEVER_S = 60.0
 
 
 def program(folder, name, body):
@@ -62,16 +62,16 @@ def test_texts_are_said_in_order_and_never_by_a_shell(on_path):
 
 
 def test_hush_ends_what_is_said_and_what_was_to_come(on_path):
-    writer(on_path, first=f"open({str(on_path / 'begun')!r}, 'w').close(); time.sleep({NEVER_S})")
+    writer(
+        on_path, first=f"open({str(on_path / 'begun')!r}, 'w').close(); time.sleep({10 * NEVER_S})"
+    )
     with voice("espeak-ng") as speaker:
         speaker.say("one")
         speaker.say("two")
         assert speaker.speaking
         assert until((on_path / "begun").exists)
-        begun_s = time.monotonic()
         speaker.hush()
-        assert speaker.wait(NEVER_S)
-        assert time.monotonic() - begun_s < 1.0
+        assert speaker.wait(NEVER_S)  # it would go on for ten times that
         assert not speaker.speaking
         assert speaker.problem == ""
         assert said(on_path) == ""

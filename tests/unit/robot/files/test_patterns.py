@@ -1,10 +1,9 @@
 """Patterns of strangers: what they mean, what is refused, and that none takes for ever."""
 
-import time
-
 import pytest
 
 from robot.files import patterns
+from tests.fakes.machine import in_paces
 
 
 @pytest.mark.parametrize(
@@ -54,6 +53,6 @@ def test_what_is_refused_with_the_reason(pattern: str, why: str) -> None:
 )
 def test_none_takes_longer_than_the_text_is_long(pattern: str) -> None:
     text = "a" * 5000 + "b"
-    begin_s = time.process_time()
-    assert not patterns.is_in(pattern, text)
-    assert time.process_time() - begin_s < 5.0  # processor time; backtracking would take years
+    found = []
+    assert in_paces(lambda: found.append(patterns.is_in(pattern, text)), tries=1) < 10_000
+    assert not any(found)  # backtracking would take years
