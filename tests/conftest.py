@@ -24,6 +24,7 @@ from tests.fakes.machine import Others
 
 # Repeatable, and patient with a slow machine: a deadline would fail a test for the machine's sake.
 settings.register_profile("repeatable", deadline=None, derandomize=True, print_blob=True)
+settings.register_profile("share", settings.get_profile("repeatable"), max_examples=50)
 settings.load_profile("repeatable")
 
 # The programs that tests start are read from bytecode, whatever the shell wishes for what it
@@ -43,6 +44,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--hostile-all", action="store_true", help=whole)
     rest = "what is marked `rest` as well, and every case of tests/hostile"
     parser.addoption("--all", action="store_true", dest="everything", help=rest)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Of what hypothesis makes, half, unless all is asked for: it is the same in every run."""
+    settings.load_profile("repeatable" if _asks_for_all(config) else "share")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -41,6 +41,23 @@ def in_paces(work: Callable[[], object], *, tries: int = 7, warm: bool = False) 
     return min(took_s) / min(pace_s)
 
 
+PACE_S = 0.0004
+"""What a pace takes on a core that has nothing else to do."""
+
+
+def slowness() -> float:
+    """How many times as much processor time as on a free core the same work takes now; 1 at least.
+
+    Cores that are shared with other guests of a host count what they wait for one another.
+    """
+    took_s = list[float]()
+    for _ in range(5):
+        began_s = time.thread_time()
+        sum(n * n for n in range(STEPS))
+        took_s.append(time.thread_time() - began_s)
+    return max(1.0, sorted(took_s)[2] / PACE_S)
+
+
 class Others:
     """Measures, while it is open, how much of the machine went to others; a context manager.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from tests.fakes.machine import slowness
 from tests.hostile.cases import OUTSIDE, SECRET, WORK, Case, Expect, Result, Streams
 
 LIBRARY_WORDING = (
@@ -65,7 +66,7 @@ def broken(case: Case, result: Result, folder: Path) -> list[str]:
     found: list[str] = []
     if result.hung:
         found.append("hangs")
-    elif result.status == -24 or result.cpu_s > case.cpu_s + _moved_s(result):
+    elif result.status == -24 or _takes_long(case, result):
         found.append(f"takes {result.cpu_s:.1f} s of processor time")
     if result.memory_mb > case.memory_mb:
         found.append(f"takes {result.memory_mb:.0f} MB")
@@ -83,6 +84,11 @@ def broken(case: Case, result: Result, folder: Path) -> list[str]:
     if not (result.hung or result.status == -24):
         found += _ended(case, result, text, folder)
     return found
+
+
+def _takes_long(case: Case, result: Result) -> bool:
+    most_s = case.cpu_s + _moved_s(result)
+    return result.cpu_s > most_s and result.cpu_s > most_s * slowness()
 
 
 def _moved_s(result: Result) -> float:

@@ -187,7 +187,14 @@ def test_the_newest_line_stays_in_sight_until_somebody_scrolls_up(browser, shell
         page.wait(f"talk.follows && {below} < 2")
 
 
-@pytest.mark.parametrize("end_s", [9.9, 235.8, 7271.0])
+@pytest.mark.parametrize(
+    "end_s",
+    [
+        pytest.param(9.9, marks=pytest.mark.rest),
+        pytest.param(235.8, marks=pytest.mark.rest),
+        7271.0,
+    ],
+)
 def test_a_phone_shows_the_whole_time(browser, shell, end_s):
     with served(shell.folder) as console:
         page = browser.page(console.url, width=375, height=740, mobile=True)

@@ -177,7 +177,7 @@ def test_a_stop_while_nobody_hears_is_told_to_the_one_that_takes_over(shell, tmp
     assert job.told[-1] == "heard [15]"
 
 
-@pytest.mark.parametrize("how", ["kill", "exception"])
+@pytest.mark.parametrize("how", ["kill", pytest.param("exception", marks=pytest.mark.rest)])
 def test_the_third_death_in_a_minute_is_the_last(shell, how):
     job = shell(dies=99, how=how)
     status, text = job.end()

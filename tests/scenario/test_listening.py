@@ -44,6 +44,7 @@ def test_a_recording_is_understood_without_moving(humanoid, tmp_path):
     assert "understood: stop" in text
 
 
+@pytest.mark.rest
 def test_a_recording_is_understood_as_json(humanoid, tmp_path):
     file = recorded(tmp_path / "a.wav", "command", "stop")
     status, text = humanoid("listen", "--file", file, "--parse-only", "--json")

@@ -95,7 +95,7 @@ def test_it_stops_at_a_goal(rig, goal):
         assert turn_rad < math.radians(3.0)
 
 
-@pytest.mark.parametrize("direction_deg", [0, 110, 250])
+@pytest.mark.parametrize("direction_deg", [0, 110, pytest.param(250, marks=pytest.mark.rest)])
 def test_it_survives_a_push_of_10_newton_seconds(rig, direction_deg):
     rig.plant.push(10.0, math.radians(direction_deg))
     assert rig.run(4.0)

@@ -39,6 +39,7 @@ def test_a_walk_keeps_its_heading_with_motors_of_unequal_strength():
     assert abs(math.degrees((before.inverse() @ rig.X_WS).yaw_rad)) < 3.0
 
 
+@pytest.mark.rest
 def test_it_comes_to_a_stand_with_loose_gears():
     """Its feet landed 2 cm or 2 degrees off, and it stepped on and on to put them right."""
     rig = Rig(seed=24, reality="real")

@@ -57,6 +57,7 @@ def test_it_walks_on(gyro_deg_s):
     assert np.degrees(known.gyro_rad_s) == pytest.approx(gyro_deg_s, abs=0.15)
 
 
+@pytest.mark.rest
 def test_it_gets_up_with_what_it_knew():
     truth = np.radians((0.6, -0.5, 0.6))
     rig = spoilt(*np.degrees(truth))

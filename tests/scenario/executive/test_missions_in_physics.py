@@ -12,7 +12,7 @@ from executive.missions.load import FOLDER, shipped
 from tests.fakes.missions import check
 
 LONG = ("bring", "tidy", "greet", "patrol")
-REST = ("bring", "tidy", "patrol")
+REST = ("bring", "tidy", "patrol", "inspect")
 """Errands of a minute: what they are made of, skills_in_physics and the others show one by one."""
 
 

@@ -193,6 +193,7 @@ def test_two_open_questions_are_both_answered(shell: Shell):
     shell.robot.wait()
 
 
+@pytest.mark.rest
 def test_counting_waits_for_the_walk_before_it(shell: Shell):
     shell.line("walk half a metre forward")
     shell.line("count the cups")

@@ -25,7 +25,7 @@ def goals_of(text: str, vocabulary: Vocabulary = WORKSHOP) -> str:
     return to_json(outcome.goals) if isinstance(outcome, Goals) else repr(type(outcome))
 
 
-@settings(max_examples=400)
+@settings(max_examples=200)
 @given(st.text(max_size=80))
 def test_no_string_raises(text: str) -> None:
     assert isinstance(parse(text, WORKSHOP), Goals | Question | Refusal)
@@ -34,7 +34,7 @@ def test_no_string_raises(text: str) -> None:
 salads = st.lists(st.sampled_from(WORDS), max_size=16).map(" ".join)
 
 
-@settings(max_examples=500)
+@settings(max_examples=250)
 @given(salads)
 def test_the_grammar_reads_any_salad_of_known_words_or_says_why_not(text: str) -> None:
     outcome = first_look(text, WORKSHOP, Context()).outcome

@@ -28,7 +28,7 @@ scripts = st.builds(
 )
 
 
-@settings(max_examples=150)
+@settings(max_examples=75)
 @given(
     lives=st.fixed_dictionaries(
         {kind: st.lists(scripts, min_size=1, max_size=4) for kind in KINDS}
@@ -55,7 +55,7 @@ def test_every_task_ends_with_a_verdict_and_a_body_at_rest(lives, errands, stop_
         assert ended or stopped, skill
 
 
-@settings(max_examples=150)
+@settings(max_examples=75)
 @given(st.text(max_size=60))
 def test_any_text_is_a_task_or_a_refusal(text):
     assert isinstance(request(text, WHERE), Understood | Refused)
@@ -66,7 +66,7 @@ bring all cups me if you see find twice three wait seconds squat one leg stop no
 words = st.sampled_from(WORDS.split())
 
 
-@settings(max_examples=300)
+@settings(max_examples=150)
 @given(st.lists(words, max_size=12))
 def test_any_words_of_the_vocabulary_are_a_task_or_a_refusal(said):
     outcome = request(" ".join(said), WHERE)

@@ -134,6 +134,7 @@ def test_voices_are_told_apart():
             recogniser.speakers = (high, low)
 
 
+@pytest.mark.rest
 def test_a_command_of_a_known_voice_fits_better():
     recogniser = Sphinx(KITCHEN)
     spoken, doubts = in_noise(sound("command"), 30), []

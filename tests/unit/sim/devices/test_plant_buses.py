@@ -128,7 +128,7 @@ def test_the_controller_walks_by_frames_alone(robot, rig):
     ]
 
 
-@pytest.mark.parametrize("after_s", [0.002, 0.008])
+@pytest.mark.parametrize("after_s", [0.002, pytest.param(0.008, marks=pytest.mark.rest)])
 def test_a_spare_holds_up_a_robot_whose_controller_was_killed_in_mid_step(robot, rig, after_s):
     def play(driver, loop, periods: int) -> None:
         for _ in range(periods):

@@ -132,7 +132,17 @@ RUNS = {
 }
 
 
-@pytest.fixture(scope="module", params=[(run, w) for run in RUNS for w in (400, 800, 1400)])
+SHARE = {("crowded", 400), ("crowded", 1400), ("short", 800), ("long", 400), ("long", 1400)}
+
+
+@pytest.fixture(
+    scope="module",
+    params=[
+        pytest.param((run, width), marks=() if (run, width) in SHARE else pytest.mark.rest)
+        for run in RUNS
+        for width in (400, 800, 1400)
+    ],
+)
 def found(request, tmp_path_factory) -> Found:
     """A page as a browser lays it out in a window of some width."""
     run, width = request.param

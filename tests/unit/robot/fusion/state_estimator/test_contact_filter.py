@@ -68,7 +68,7 @@ DIRECTIONS = [(1, 0, 0), (0, -1, 0), (0, 0, 1), (0.58, 0.58, -0.58), (-0.8, 0.0,
 
 
 @pytest.mark.parametrize("direction", DIRECTIONS)
-@pytest.mark.parametrize("bias_deg_s", [0.2, 1.0])
+@pytest.mark.parametrize("bias_deg_s", [0.2, pytest.param(1.0, marks=pytest.mark.rest)])
 def test_the_gyros_bias_is_found_in_every_direction(direction, bias_deg_s):
     bench = Bench(gyro_bias=np.array(direction) * bias_deg_s * DEG, seed=3)
     bench.run(15.0)
@@ -84,6 +84,7 @@ def test_an_accelerometers_bias_is_found_along_the_vertical():
     assert abs(bench.filter.accel_bias[2] - 0.2) < 0.03
 
 
+@pytest.mark.rest
 def test_errors_are_as_large_as_the_covariance_says():
     """NEES of the biases and the tilt over 30 runs: a mean of about 8 for 8 degrees of freedom."""
     values = []
