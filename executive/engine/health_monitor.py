@@ -30,6 +30,8 @@ COOL_C = 70.0
 """A motor that has tripped has to cool down to this before anything moves again."""
 OVERLOAD_SHARE = 0.15
 """More late periods than this are too many to go on with, once all else makes room."""
+PACE_WELL = 0.95
+"""A simulation whose time was said to be slow is well again from here on."""
 THIN_SPEED = 0.6
 """The part of the speed that is left while a topic is thin."""
 DERATED_SPEED = 0.6
@@ -104,7 +106,7 @@ GRADES: dict[str, Scale] = {
     ),
     "lateness": Scale(
         code="overloaded",
-        unit="of the controller's periods late",
+        unit="of the controller's periods late and not waited for",
         grades=(
             Grade(at=0.05, level=Level.WARN),
             Grade(at=0.30, level=Level.DERATE, speed=0.6),
@@ -115,6 +117,12 @@ GRADES: dict[str, Scale] = {
         code="overloaded",
         unit=f"s of more than {100 * OVERLOAD_SHARE:.0f} % late, though all else makes room",
         grades=(Grade(at=3.0, level=Level.HOLD),),
+    ),
+    "pace": Scale(
+        code="overloaded",
+        unit="x real time, of a simulation that waits for the controller",
+        falling=True,
+        grades=(Grade(at=0.8, level=Level.WARN),),
     ),
 }
 """Measurement to what its values mean."""
@@ -155,6 +163,7 @@ class HealthMonitor:
         self._jumps: int | None = None
         self._jumped_s = -math.inf
         self._fit_s = start_s
+        self._slow = False
 
     def look(
         self,
@@ -198,7 +207,7 @@ class HealthMonitor:
         if power is not None:
             findings += _battery(power)
         if timing is not None:
-            findings += self._lateness(timing, now_s)
+            findings += [*self._lateness(timing, now_s), *self._pace(timing)]
         findings.sort(key=lambda finding: -finding.level)
         left = min((finding.speed for finding in findings), default=1.0)
         speed_m_s = left * self._speed_m_s if left < 1.0 else math.inf
@@ -206,7 +215,7 @@ class HealthMonitor:
             findings=tuple(findings),
             ages_s=ages_s,
             speed_m_s=speed_m_s,
-            pressed=timing is not None and timing.pressed,
+            pressed=self._slow or (timing is not None and timing.pressed),
         )
 
     @staticmethod
@@ -252,14 +261,35 @@ class HealthMonitor:
         return [Finding(name="jump", level=Level.HOLD, failure=reason)]
 
     def _lateness(self, timing: LoopTiming, now_s: float) -> list[Finding]:
-        """The part of the controller's periods that were late since its last report."""
-        if not timing.pressed or timing.late_share <= OVERLOAD_SHARE:
+        """The part of the controller's periods that were late since its last report.
+
+        Those that the body's time waited for are as good as those in time.
+        """
+        if not timing.pressed or timing.missed_share <= OVERLOAD_SHARE:
             self._fit_s = now_s
-        text = f"{100.0 * timing.late_share:.0f} % of the controller's periods are late"
+        text = f"{100.0 * timing.missed_share:.0f} % of the controller's periods are late"
+        if timing.waited_for:
+            text += f" by more than simulated time waits ({timing.pace:.1f} x real time)"
         if timing.pressed:
             text += "; camera, lidar and drawing go slower"
-        late = _graded("lateness", timing.late_share, text)
+        late = _graded("lateness", timing.missed_share, text)
         return [*_graded("overload", now_s - self._fit_s, text), *late]
+
+    def _pace(self, timing: LoopTiming) -> list[Finding]:
+        """How fast simulated time goes by, where it waits for the controller."""
+        scale = GRADES["pace"]
+        level, _ = scale.grade(timing.pace)
+        self._slow = timing.waited_for and (
+            level is not Level.OK or (self._slow and timing.pace < PACE_WELL)
+        )
+        if not self._slow:
+            return []
+        text = (
+            f"simulated time runs at {timing.pace:.1f} x: this machine is too slow for this "
+            "simulation in real time; the robot does the same, later by the clock on the wall"
+        )
+        reason = failure(scale.code, text, pace=round(timing.pace, 2))
+        return [Finding(name="pace", level=scale.grades[0].level, failure=reason)]
 
 
 class _Flow:

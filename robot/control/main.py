@@ -28,8 +28,19 @@ NEXT_POLL_S = 1.0
 """How long a spare behind another one waits before it looks whether it is to stop."""
 
 
-def serve(loop: ControlLoop, body: BodyDevices, bus: Bus, *, clock: Clock, stop: Stop) -> None:
-    """Run until asked to stop. After a pause of the process the motors damp until re-armed."""
+def serve(
+    loop: ControlLoop, body: BodyDevices, bus: Bus, *, clock: Clock, stop: Stop, waited_for: bool
+) -> None:
+    """Run until asked to stop. After a pause of the process the motors damp until re-armed.
+
+    Args:
+        loop: the controller.
+        body: what it moves.
+        bus: for what is not urgent.
+        clock: of the wall.
+        stop: when it is asked to.
+        waited_for: whether the body's time waits for commands, as a simulation's does.
+    """
     commands = bus.subscribe(topics.BODY_COMMAND)
     lateness = Lateness("controller", BUS_PERIOD_S)
     stamp_s, ticks = -1.0, 0
@@ -38,7 +49,9 @@ def serve(loop: ControlLoop, body: BodyDevices, bus: Bus, *, clock: Clock, stop:
         if sample.motors.stamp_s == stamp_s:
             continue
         stamp_s = sample.motors.stamp_s
-        pause_s = lateness.tick(clock.now_s()) if ticks else 0.0  # the first command enables motors
+        body_s = stamp_s if waited_for else None
+        # The first command enables motors: that takes longer.
+        pause_s = lateness.tick(clock.now_s(), body_s=body_s) if ticks else 0.0
         if pause_s > PAUSE_S:
             loop.trip(f"the controller stood still for {pause_s:.2f} s")
         for command in commands.take():
@@ -82,7 +95,7 @@ def main(run_file: str, parent_pid: str) -> None:
             while not stop and not body.claim():
                 clock.sleep_until(clock.now_s() + TURN_POLL_S)
             loop.recall(states.latest)
-            serve(loop, body, bus, clock=clock, stop=stop)
+            serve(loop, body, bus, clock=clock, stop=stop, waited_for=config.simulated)
 
 
 if __name__ == "__main__":

@@ -107,8 +107,11 @@ class LoopTiming(Message, frozen=True, kw_only=True):
 
     `late` of `count` periods began later than half a period after their time; percentiles of the
     lateness in seconds. `real_time_factor` is simulated time over wall time, 1 on hardware.
-    `late_share` is of the periods since the last report; `pressed` asks whatever is not real-time
-    to make room (`robot.bus.timing`).
+    `late_share` is of the periods since the last report. `waited_for` says whether the body's time
+    waits for this loop, as a simulation's does; `missed` are the late periods that it did not wait
+    for, all of them on hardware, and `missed_share` those since the last report. `pressed` asks
+    whatever is not real-time to make room (`robot.bus.timing`). `pace` is simulated time over wall
+    time of late.
     """
 
     process: str
@@ -122,3 +125,7 @@ class LoopTiming(Message, frozen=True, kw_only=True):
     real_time_factor: float = 1.0
     late_share: float = 0.0
     pressed: bool = False
+    waited_for: bool = False
+    missed: int = 0
+    missed_share: float = 0.0
+    pace: float = 1.0

@@ -76,6 +76,7 @@ def _controller(timing: LoopTiming | None) -> Row:
     values = {
         "count": str(timing.count),
         "late": str(timing.late),
+        "missed": str(timing.missed),
         "p99_s": f"{timing.p99_s:.6f}",
         "max_s": f"{timing.max_s:.6f}",
         "real_time_factor": f"{timing.real_time_factor:.3f}",

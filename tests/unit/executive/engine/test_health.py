@@ -4,6 +4,8 @@ import itertools
 from types import SimpleNamespace
 from typing import cast
 
+import math
+
 import pytest
 from msgspec.structs import replace
 
@@ -186,10 +188,10 @@ def test_a_pose_that_jumped_has_to_be_steady_before_it_is_walked_on():
     assert held[-1] == pytest.approx(1.55 + JUMP_REST_S, abs=0.06)
 
 
-def timing(late_share: float, *, pressed: bool = False) -> LoopTiming:
+def timing(missed_share: float, *, pressed: bool = False, **others) -> LoopTiming:
     return LoopTiming(
         stamp_s=0.0, process="controller", period_s=0.002, count=1000, late=0, p50_s=0.0,
-        p99_s=0.0, p999_s=0.0, max_s=0.0, late_share=late_share, pressed=pressed,
+        p99_s=0.0, p999_s=0.0, max_s=0.0, missed_share=missed_share, pressed=pressed, **others,
     )  # fmt: skip
 
 
@@ -217,6 +219,39 @@ def test_a_controller_that_stays_late_though_all_else_makes_room_ends_in_a_hold(
     assert level(13.2, 0.1) is Level.WARN  # making room has helped
     assert level(16.1, 0.2) is Level.WARN
     assert level(19.3, 0.2, pressed=False) is Level.WARN
+
+
+def test_periods_that_a_simulation_waited_for_slow_its_time_and_nothing_else():
+    watch = monitor()
+    told = []
+    for n, pace in enumerate((1.0, 0.85, 0.5, 0.9, 0.5, 0.94, 0.96, 0.85)):
+        late = timing(0.0, late_share=1.0, waited_for=True, pace=pace)
+        health = watch.look(10.0 + 5.0 * n, {}, body=None, world=None, timing=late)
+        told.append(health.level)
+        assert health.speed_m_s == math.inf
+        assert health.pressed == (health.level is Level.WARN)
+        if health.failure is not None:
+            assert (health.failure.code, "0.5 x" in health.failure.cause) == (
+                "overloaded",
+                pace == 0.5,
+            )
+    assert told == [Level.OK] * 2 + [Level.WARN] * 4 + [Level.OK] * 2
+
+
+def test_periods_that_a_simulation_did_not_wait_for_count_as_on_a_robot_of_metal():
+    for share in (0.0, 0.06, 0.36, 0.95):
+        there = timing(share, late_share=1.0, waited_for=True, pace=1.0)
+        metal = timing(share, late_share=share)
+        levels = {
+            monitor().look(1.0, {}, body=None, world=None, timing=one).level
+            for one in (there, metal)
+        }
+        assert len(levels) == 1
+
+
+def test_a_robot_of_metal_is_never_said_to_be_a_slow_simulation():
+    slow = timing(0.0, pace=0.5)
+    assert monitor().look(1.0, {}, body=None, world=None, timing=slow).level is Level.OK
 
 
 def test_a_topic_that_thins_out_slows_the_robot_down():

@@ -45,6 +45,59 @@ def test_the_real_time_factor_is_simulated_over_wall_time():
     assert lateness.report(15.0, 110.0).real_time_factor == pytest.approx(0.5)
 
 
+def test_the_pace_is_that_of_the_last_reports():
+    lateness = Lateness("x", PERIOD_S)
+    for second in range(20):
+        lateness.report(min(second, 9), second)
+    report = lateness.report(9.0 + 5.0, 20.0)
+    assert report.pace == pytest.approx(0.5)
+    assert report.real_time_factor == pytest.approx(14 / 20)
+
+
+DELAYS = st.lists(
+    st.floats(0.0, 0.05).filter(lambda late_s: abs(late_s - PERIOD_S / 2) > 1e-6),
+    min_size=1,
+    max_size=200,
+)
+
+
+@given(lates=DELAYS)
+def test_a_body_that_waits_for_nobody_misses_every_late_period(lates):
+    lateness, now_s = Lateness("x", PERIOD_S), 0.0
+    lateness.tick(now_s)
+    for late_s in lates:
+        now_s += PERIOD_S + late_s
+        lateness.tick(now_s)
+    report = lateness.report(now_s, now_s)
+    assert not report.waited_for
+    assert (report.missed, report.missed_share) == (report.late, report.late_share)
+
+
+@given(lates=DELAYS, skipped=st.lists(st.integers(0, 3), min_size=200, max_size=200))
+def test_a_body_that_waits_misses_the_periods_that_it_lived_without_a_command(lates, skipped):
+    lateness, now_s, periods = Lateness("x", PERIOD_S), 0.0, 0
+    lateness.tick(now_s, body_s=0.0)
+    for late_s, more in zip(lates, skipped, strict=False):
+        now_s += PERIOD_S + late_s
+        periods += 1 + more
+        lateness.tick(now_s, body_s=periods * PERIOD_S)
+    report = lateness.report(periods * PERIOD_S, now_s)
+    assert report.waited_for
+    assert report.missed == sum(more > 0 for more in skipped[: len(lates)])
+    assert report.late == sum(late_s > PERIOD_S / 2 for late_s in lates)
+
+
+def test_a_loop_that_is_waited_for_is_late_and_not_pressed():
+    lateness = Lateness("x", PERIOD_S)
+    for tick in range(4000):
+        lateness.tick(tick * 2.0 * PERIOD_S, body_s=tick * PERIOD_S)
+        if tick % 250 == 0:
+            report = lateness.report(tick * PERIOD_S, tick * 2.0 * PERIOD_S)
+            assert not report.pressed
+    assert (report.late_share, report.missed) == (1.0, 0)
+    assert report.pace == pytest.approx(0.5)
+
+
 def test_long_delays_do_not_overflow():
     lateness = Lateness("x", PERIOD_S)
     lateness.tick(0.0)
