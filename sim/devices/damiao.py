@@ -120,17 +120,19 @@ class Damiao:
 
     def hear(self, frame: CanFrame, now_s: float) -> None:
         """A frame of somebody else's went by."""
-        if frame.id not in (self.registers[8], 0x7FF) or frame.extended or len(frame.data) != 8:
+        number, data, extended = frame
+        if number not in (self.registers[8], 0x7FF) or extended or len(data) != 8:
             return
-        if frame.id == 0x7FF:
-            if frame.data[0] | frame.data[1] << 8 == int(self.registers[8]):
+        if number == 0x7FF:
+            if data[0] | data[1] << 8 == int(self.registers[8]):
                 self.live(now_s)
-                self._of_registers(frame.data, now_s)
+                self._of_registers(data, now_s)
         else:
             if self._lived_s + self.shaft.step_s <= now_s + SAME_S:
                 self.live(now_s)
             self._heard_s = now_s
-            self._obey(frame.data)
+            if data != self._last:
+                self._obey(data)
             self._answer(self._feedback(), now_s)
 
     def _obey(self, data: bytes) -> None:
@@ -143,7 +145,7 @@ class Damiao:
             elif data[7] == 0xFE and self.status == 0:
                 self.zero_rad = self.shaft.q_rad
             return
-        if self.status != 1 or registers[10] != 1 or data == self._last:
+        if self.status != 1 or registers[10] != 1:
             return
         b, p, v, t = data, registers[21], registers[22], registers[23]
         self._last = data
@@ -184,15 +186,20 @@ class Damiao:
         return self.shaft.q_rad - self.zero_rad
 
     def _feedback(self) -> bytes:
-        speed = self.shaft.qd_rad_s * self.trouble.speed_scale
-        q = _steps(self._q_rad, self.registers[21], 16)
-        v = _steps(speed, self.registers[22], 12)
-        t = _steps(self.tau_nm, self.registers[23], 12)
+        """Position in 16 bits, speed and torque in 12, each from minus to plus of its register."""
+        registers = self.registers
+        p, v, t = registers[21], registers[22], registers[23]
+        q_rad, tau_nm = self.shaft.q_rad - self.zero_rad, self.tau_nm
+        qd_rad_s = self.shaft.qd_rad_s * self.trouble.speed_scale
+        q = int(((q_rad if q_rad < p else p) + p if q_rad > -p else 0.0) / (p + p) * 65535)
+        w = int(((qd_rad_s if qd_rad_s < v else v) + v if qd_rad_s > -v else 0.0) / (v + v) * 4095)
+        m = int(((tau_nm if tau_nm < t else t) + t if tau_nm > -t else 0.0) / (t + t) * 4095)
+        own, driver_c, winding_c = int(registers[8]), int(self.driver_c), int(self.winding_c)
         return bytes(
             (
-                self.status << 4 | int(self.registers[8]) & 0xF,
-                q >> 8, q & 0xFF, v >> 4, (v & 0xF) << 4 | t >> 8, t & 0xFF,
-                min(255, int(self.driver_c)), min(255, int(self.winding_c)),
+                self.status << 4 | own & 0xF,
+                q >> 8, q & 0xFF, w >> 4, (w & 0xF) << 4 | m >> 8, m & 0xFF,
+                driver_c if driver_c < 255 else 255, winding_c if winding_c < 255 else 255,
             )
         )  # fmt: skip
 
@@ -236,8 +243,3 @@ class Damiao:
             found = 0xD
         if found is not None:
             self.status = found
-
-
-def _steps(value: float, most: float, bits: int) -> int:
-    share = (max(-most, min(most, value)) + most) / (2.0 * most)
-    return int(share * ((1 << bits) - 1))

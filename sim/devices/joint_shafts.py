@@ -41,7 +41,7 @@ class JointShaft:
 
     def turn(self, order: Order, most_nm: float, duration_s: float) -> float:  # noqa: ARG002
         """Hand the order on; the torque is that of the last step of the physics."""
-        if order != self._order:
+        if order is not self._order and order != self._order:
             self._order, turns = order, self._turns
             stiffness = turns * turns
             self._body.order(

@@ -1,10 +1,9 @@
 """Health follows from the ages of messages and from what they say."""
 
 import itertools
+import math
 from types import SimpleNamespace
 from typing import cast
-
-import math
 
 import pytest
 from msgspec.structs import replace

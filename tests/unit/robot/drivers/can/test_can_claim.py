@@ -42,6 +42,36 @@ def test_a_program_that_dies_lets_go(state):
     spare.release()
 
 
+def test_who_was_refused_has_it_once_the_other_lets_go_and_opens_nothing_until_then(
+    state, monkeypatch
+):
+    one, other = Claim(["a:0", "a:1"]), Claim(["a:1", "a:2"])
+    opened = []
+    open_file = os.open
+    monkeypatch.setattr(os, "open", lambda *args: opened.append(args) or open_file(*args))
+    assert one.take()
+    for _ in range(50):
+        assert not other.take()
+        assert not other.is_free()
+    assert len(opened) <= 4
+    (state / "can" / "claims.lock").unlink()  # it is not the file that counts, but who holds it
+    assert not other.take()
+    one.release()
+    assert other.take()
+    assert not Claim(["a:2"]).take()
+    other.release()
+
+
+def test_who_was_refused_and_leaves_leaves_nothing_open(state):
+    one, other = Claim(["a:0"]), Claim(["a:0"])
+    assert one.take()
+    before = len(list(Path("/proc/self/fd").iterdir()))
+    assert not other.take()
+    other.release()
+    assert len(list(Path("/proc/self/fd").iterdir())) == before
+    one.release()
+
+
 def test_a_name_that_others_can_bind_is_no_claim(state):
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as squatter:
         squatter.bind(f"\0humanoid-can/{hashlib.blake2b(b'a:0', digest_size=16).hexdigest()}")
