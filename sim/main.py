@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from contextlib import ExitStack
 
@@ -48,6 +49,7 @@ def main(run_file: str, parent_pid: str) -> None:
             buses = PlantBuses(plant, joints, config.memory, clock=clock, tell=print, servos=servos)
             stack.enter_context(buses)
         ask_for_real_time()
+        gc.freeze()  # what start-up made stays: the collector need not look at it every period
         live = LivePlant(plant, body, bus, clock=clock, scene=scene, buses=buses)
         live.run(lambda: bool(stop))
 

@@ -118,7 +118,8 @@ def _timing_words(timing: LoopTiming) -> str:
     share = 100.0 * timing.late / max(timing.count, 1)
     spans_ms = [1e3 * span_s for span_s in (timing.p50_s, timing.p99_s, timing.p999_s)]
     late = f"{timing.process}: {timing.late} of {timing.count} periods late ({share:.2f} %)"
-    waited = f"; simulated time waited for all but {timing.missed}" if timing.waited_for else ""
+    but = f" but {timing.missed}" if timing.missed else " of them"
+    waited = f"; simulated time waited for all{but}" if timing.waited_for else ""
     by = f"by p50 {spans_ms[0]:.2f}, p99 {spans_ms[1]:.2f}, p99.9 {spans_ms[2]:.2f} ms"
     return f"{late}, {by}{waited}"
 

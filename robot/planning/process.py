@@ -1,4 +1,7 @@
-"""The planner of `live` runs: a process of its own, with a budget of wall time.
+"""The planner of `live` runs: a process of its own, with a budget of the robot's time.
+
+That is the wall's time, but in a simulation that is too slow for it: its time waits for a slow
+machine, and so does this budget.
 
 What runs over its budget, or is cancelled, is killed with its process; another is started. No call
 waits for a process: not for its start, its answer, or its end.
@@ -6,9 +9,9 @@ waits for a process: not for its start, its answer, or its end.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
-from robot.clock import Clock, WallClock
 from robot.closing import Closing
 from robot.failures import failure
 from robot.model.description import RobotDescription
@@ -22,7 +25,7 @@ STARTS = 3
 
 @dataclass(slots=True)
 class _Waiting:
-    """A request in line or in work; `deadline_s` on the wall, set when it is sent."""
+    """A request in line or in work; `deadline_s` is set when it is sent."""
 
     request: PlanRequest
     deadline_s: float | None = None
@@ -39,12 +42,11 @@ class ProcessPlanner(Closing):
         description: RobotDescription,
         *,
         budget_s: float = BUDGET_S,
-        clock: Clock | None = None,
     ) -> None:
-        """Start the worker; `budget_s` of wall time a request, starting up not counted."""
+        """Start the worker; `budget_s` of the robot's time a request, starting up not counted."""
         self._description = description
         self._budget_s = budget_s
-        self._clock = clock or WallClock()
+        self._now_s = -math.inf
         self._waiting: dict[int, _Waiting] = {}
         self._answers: dict[int, PlanResult] = {}
         self._last = 0
@@ -54,15 +56,17 @@ class ProcessPlanner(Closing):
         self._closed = False
         self._worker = WorkerProcess(description)
 
-    def submit(self, request: PlanRequest, *, now_s: float) -> int:  # noqa: ARG002
+    def submit(self, request: PlanRequest, *, now_s: float) -> int:
         """Put a request in line."""
+        self._now_s = now_s
         self._last += 1
         self._waiting[self._last] = _Waiting(request)
         self._advance()
         return self._last
 
-    def poll(self, ticket: int, *, now_s: float) -> PlanResult | None:  # noqa: ARG002
+    def poll(self, ticket: int, *, now_s: float) -> PlanResult | None:
         """The answer once the worker has sent it, or a `planner_timeout`."""
+        self._now_s = now_s
         self._advance()
         if ticket in self._answers:
             return self._answers.pop(ticket)
@@ -95,7 +99,7 @@ class ProcessPlanner(Closing):
         running = self._running
         if running is not None:
             deadline_s = self._waiting[running].deadline_s
-            if deadline_s is not None and self._clock.now_s() > deadline_s:
+            if deadline_s is not None and self._now_s > deadline_s:
                 self._finish(
                     running,
                     failure(
@@ -108,7 +112,7 @@ class ProcessPlanner(Closing):
         if self._running is None and self._waiting and self._ready:
             ticket = min(self._waiting)
             self._running = ticket
-            self._waiting[ticket].deadline_s = self._clock.now_s() + self._budget_s
+            self._waiting[ticket].deadline_s = self._now_s + self._budget_s
             self._worker.send(ticket, self._waiting[ticket].request)
 
     def _receive(self) -> None:
