@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from robot.clock import WallClock
+from robot.clock import Clock, WallClock
 from robot.drivers.wiring import SimulatedPlant
 
 POLL_S = 0.0001
@@ -36,9 +36,9 @@ class PlantBehind:
 class PlantClock:
     """The time of a simulated plant in another process; it goes on in the plant's periods."""
 
-    def __init__(self, plant: SimulatedPlant) -> None:
-        """Of a plant that is open whenever the time is asked for."""
-        self._plant, self._wall = plant, WallClock()
+    def __init__(self, plant: SimulatedPlant, *, wall: Clock | None = None) -> None:
+        """Of a plant that is open whenever the time is asked for; `wall`: by which waits sleep."""
+        self._plant, self._wall = plant, wall or WallClock()
         self._sleeps_s = 0.0
 
     def now_s(self) -> float:

@@ -1,6 +1,8 @@
 """The pieces that drivers of real motors are made of: periods, life, holding, news, jumps."""
 
+import math
 import os
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,7 +16,39 @@ from robot.drivers.motors.holding import Holding
 from robot.drivers.motors.jumps import JUMPS_BELIEVED, Jumps
 from robot.drivers.motors.life import Life
 from robot.drivers.motors.periods import Periods
+from robot.drivers.motors.plant_behind import MOST_SLEPT_S, POLL_S, SLEPT_SHARE, PlantClock
 from robot.errors import DriverError
+
+# --- the time of a plant in another process -------------------------------------------------------
+
+
+class SlowPlant:
+    """A period of 2 ms after every `takes_s` of the wall; counts who looks."""
+
+    def __init__(self, wall: SimulatedClock, takes_s: float) -> None:
+        self.wall, self.takes_s, self.looks = wall, takes_s, 0
+
+    @property
+    def sample(self):
+        self.looks += 1
+        periods = math.floor(self.wall.now_s() / self.takes_s + 1e-9)
+        return SimpleNamespace(motors=SimpleNamespace(stamp_s=0.002 * periods))
+
+
+@pytest.mark.parametrize("takes_s", [0.0005, 0.002, 0.004, 0.05])
+def test_who_waits_for_a_plant_is_there_soon_after_it_and_looks_seldom_before(takes_s):
+    wall = SimulatedClock()
+    plant = SlowPlant(wall, takes_s)
+    clock = PlantClock(plant, wall=wall)
+    for period in range(1, 50):
+        looks = plant.looks
+        clock.sleep_until(0.002 * period)
+        assert clock.now_s() == pytest.approx(0.002 * period)
+        assert wall.now_s() - period * takes_s < 1.5 * POLL_S
+        if period > 1:
+            slept_s = min(SLEPT_SHARE * takes_s, MOST_SLEPT_S) - 2.0 * POLL_S
+            assert plant.looks - looks <= (takes_s - slept_s) / POLL_S + 4
+
 
 # --- periods -------------------------------------------------------------------------------------
 
