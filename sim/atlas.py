@@ -167,6 +167,20 @@ def walls(room: Room) -> list[Obstacle]:
     return found
 
 
+def doorways(world: World) -> list[tuple[float, float]]:
+    """The middles of all doorways [m]."""
+    found: list[tuple[float, float]] = []
+    for room in world.rooms:
+        for door in room.doors:
+            along = 0 if door.wall in ("north", "south") else 1
+            sign = 1.0 if door.wall in ("north", "east") else -1.0
+            middle = list(room.at_m)
+            middle[along] += door.at_m
+            middle[1 - along] += sign * (room.size_m[1 - along] + WALL_M) / 2
+            found.append((middle[0], middle[1]))
+    return found
+
+
 def _wall_pieces(room: Room, side: str, half_m: float) -> list[tuple[float, float]]:
     """Intervals along a wall that are left when the doors are cut out."""
     gaps = sorted(

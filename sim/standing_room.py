@@ -1,12 +1,14 @@
 """Where a simulated person can step to: free floor that they reach straight, or around one corner.
 
-Who stands in a doorway steps back through it, and then aside.
+Who stands in a doorway steps back through it, and then aside. Nobody makes room before a door, or
+between the robot and a door ahead of it, who can do so elsewhere: who wants to pass may want to
+go through.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 import msgspec
 
@@ -34,6 +36,12 @@ WIDE_LANE_M = 1.3
 """The same for who is asked again soon: what the robot wants is not straight before it."""
 
 
+DOORSTEP_M = 0.9
+"""From the middle of a doorway: who goes through comes as near as this to it, and turns there."""
+DOOR_AHEAD_M = 4.0
+"""As near as this is a door that somebody may want to go through."""
+
+
 class Around(msgspec.Struct, frozen=True):
     """What moves: the robot with its heading, and circles that others take up."""
 
@@ -47,22 +55,46 @@ def way_out(
 ) -> tuple[Point, ...]:
     """The way to the nearest spot out of the robot's way, that far from it; empty: there is none.
 
-    Straight if possible, else around one corner.
+    Straight if possible, else around one corner; on the way to a door only if nowhere else.
     """
     bare = msgspec.structs.replace(world, people=())
+    doorways = atlas.doorways(world)
+
+    def is_clear(spot: Point) -> bool:
+        return _is_out_of_the_way(spot, around, apart_m, lane_m)
+
+    def is_off_doors(spot: Point) -> bool:
+        return is_clear(spot) and not any(_is_on_the_way(spot, door, around) for door in doorways)
+
+    return _way_to(is_off_doors, bare, at, around) or _way_to(is_clear, bare, at, around)
+
+
+def _is_on_the_way(spot: Point, door: Point, around: Around) -> bool:
+    """Whether somebody would stand before a door, or between it and the robot that faces it."""
+    if math.dist(spot, door) < DOORSTEP_M:
+        return True
+    ahead_m, _ = _in_lane(door, around)
+    if ahead_m < 0.0 or math.dist(door, around.robot) > DOOR_AHEAD_M:
+        return False
+    heading_rad = math.atan2(door[1] - around.robot[1], door[0] - around.robot[0])
+    along_m, aside_m = _in_lane(spot, msgspec.structs.replace(around, heading_rad=heading_rad))
+    return 0.0 < along_m < math.dist(door, around.robot) and aside_m < LANE_M
+
+
+def _way_to(
+    will_do: Callable[[Point], bool], world: World, at: Point, around: Around
+) -> tuple[Point, ...]:
+    """The way to the nearest spot that will do, straight or around one corner."""
 
     def free_spot(start: Point) -> Point | None:
-        for spot in _candidates(start, around):
-            clear = _is_out_of_the_way(spot, around, apart_m, lane_m)
-            if clear and _is_free_way(bare, start, spot, around):
-                return spot
-        return None
+        spots = filter(will_do, _candidates(start, around))
+        return next((spot for spot in spots if _is_free_way(world, start, spot, around)), None)
 
     spot = free_spot(at)
     if spot is not None:
         return (spot,)
     for corner in _candidates(at, around, CORNERS_M):
-        if _is_free_way(bare, at, corner, around):
+        if _is_free_way(world, at, corner, around):
             spot = free_spot(corner)
             if spot is not None:
                 return (corner, spot)

@@ -17,6 +17,7 @@ from sim.plant import Plant
 from sim.somebody import LOST_M
 from sim.standing_room import (
     BACK_M,
+    DOORSTEP_M,
     LANE_M,
     ROBOT_M,
     WALKING_M,
@@ -176,6 +177,22 @@ def test_who_stands_in_a_doorway_steps_back_through_it_and_then_aside(heading_de
     around = Around((0.0, -0.1), math.radians(heading_deg))
     *_, spot = way_out(home, (0.0, -0.66), around)
     assert not in_the_way(spot, around, within_m=2.0)
+
+
+def test_nobody_makes_room_before_a_door_that_they_can_make_room_elsewhere():
+    saloon = Room(
+        id="saloon", at_m=(0.0, 0.0), size_m=(4.2, 4.2), walls=("west", "north", "south"),
+        doors=(Door(wall="west", at_m=0.9, width_m=0.85),),
+    )  # fmt: skip
+    deck = Room(id="deck", at_m=(-3.4, 0.0), size_m=(2.4, 4.2), walls=("west", "north", "south"))
+    home = msgspec.structs.replace(world.empty(), rooms=(saloon, deck))
+    around = Around((0.0, -0.25), 3.1)
+    *_, spot = way_out(home, (-1.3, 0.1), around)
+    assert not in_the_way(spot, around, within_m=2.0)
+    door = (-2.14, 0.9)
+    assert math.dist(spot, door) > DOORSTEP_M
+    to_the_door = Around((0.0, -0.25), math.atan2(door[1] + 0.25, door[0]))
+    assert not in_the_way(spot, to_the_door, within_m=2.0)
 
 
 @pytest.fixture(scope="module")

@@ -130,3 +130,10 @@ def test_what_is_in_a_can_says_more_than_the_can() -> None:
 def test_a_plural_is_kept_where_one_is() -> None:
     home = msgspec.structs.replace(MAP, places=(room("office"),))
     assert usual_places(thing("staplers", "thing"), home) == {"office"}
+
+
+def test_a_herb_is_looked_for_where_herbs_are() -> None:
+    """A basil pot was looked for in the whole galley before the herb rack on the deck."""
+    rack = surface("herb rack", "shelf", 9.0, 0.8)
+    home = msgspec.structs.replace(MAP, places=(room("deck"), room("bath"), rack))
+    assert usual_places(thing("basil pot", "pot"), home) == {"herb rack"}
