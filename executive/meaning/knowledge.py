@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
 from executive.skills.motions.support import stands_on
 from intents.grounding import Entity
 from intents.numbers import Noun, plural
@@ -15,6 +18,8 @@ from robot.se3 import SE3, Vector3
 T = TypeVar("T")
 SMALL, BIG = 0.75, 1.33
 """Volume relative to the mean of its name: less is small, more is big."""
+WALL_M, DOOR_M = 0.4, 0.6
+"""Walls between rooms are thinner, and doors between them wider."""
 
 
 class Knowledge:
@@ -97,6 +102,16 @@ class Knowledge:
         inside = (room.name for room in self.map.places if _is_room(room) and _over(p_W, room))
         return next(inside, "")
 
+    def rooms(self, name: str) -> tuple[Place, ...]:
+        """The rooms that a name can mean."""
+        return tuple(place for place in self.places(name) if _is_room(place)) if name else ()
+
+    def rooms_beside(self, name: str) -> tuple[Place, ...]:
+        """The rooms that have a wall, or an open side, in common with those of a name."""
+        rooms = self.rooms(name)
+        others = [place for place in self.map.places if _is_room(place) and place not in rooms]
+        return tuple(one for one in others if any(_share_a_side(one, room) for room in rooms))
+
     def noun(self, name: str) -> Noun:
         """What is counted, with the plural that the world gives for it, or else English forms."""
         return Noun(name, self.map.categories.get(name) or plural(name))
@@ -119,6 +134,20 @@ def _is_room(place: Place) -> bool:
 def _over(p_W: Vector3, place: Place) -> bool:
     x, y, _ = (place.X_WP.inverse() @ SE3(p_W)).p
     return abs(x) <= 0.5 * place.size_m[0] and abs(y) <= 0.5 * place.size_m[1]
+
+
+def _share_a_side(a: Place, b: Place) -> bool:
+    """Whether two rooms lie side by side, for as long as a door is wide at least."""
+    (a_low, a_high), (b_low, b_high) = _corners(a), _corners(b)
+    together = np.minimum(a_high, b_high) - np.maximum(a_low, b_low)
+    return bool(together.min() > -WALL_M and together.max() >= DOOR_M)
+
+
+def _corners(room: Place) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The lowest and the highest x and y of a room [m], each of shape (2,)."""
+    half = 0.5 * np.abs(room.X_WP.rotation()[:2, :2]) @ np.array(room.size_m)
+    at = np.array(room.X_WP.p[:2])
+    return at - half, at + half
 
 
 def volume(info: ObjectInfo) -> float:

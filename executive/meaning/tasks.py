@@ -22,6 +22,7 @@ from executive.meaning.in_here import without_here
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.staying import with_an_end
 from executive.meaning.stopovers import without_stopovers
+from executive.meaning.telling_where import told_where
 from executive.skills.pick import PickParams
 from executive.trees.parts import Branch, Errand, Kept, Part, Series, errands
 from intents import goals
@@ -37,7 +38,7 @@ def understand(asked: Iterable[goals.Goal], scene: Scene) -> Series:
     Raises:
         CannotMean: if one of them has no meaning here, or no skill does it.
     """
-    parts = sequence(with_an_end(without_here(asked)), scene)
+    parts = sequence(told_where(with_an_end(without_here(asked))), scene)
     if not parts:
         raise cannot("invalid_goal", "there is nothing to do")
     task = Series(name="task", parts=(*parts, *last_look(parts, scene.knowledge)))

@@ -23,7 +23,7 @@ from executive.skills.look import SIDES, LookParams, Side
 from executive.skills.motions.likelihood import surfaces_of
 from executive.skills.navigate import NavigateParams, Step
 from executive.skills.search import SearchParams
-from executive.trees.parts import Errand, Part, Series
+from executive.trees.parts import Branch, Errand, Part, Series
 from intents import goals
 from robot.messages import ObjectInfo
 
@@ -110,7 +110,7 @@ def count(goal: goals.Count, scene: Scene) -> Part:
         tell = answers.say_count(number_of, noun=noun, where=f" {where_words(query)}")
     elif query.at is None:
         ids = frozenset(info.id for info in scene.fitting(query))
-        looks = (tolerant(_look_over_the_room(scene)),)
+        looks = _looks_around(ids, scene)
         tell = answers.count_everywhere(ids, scene.knowledge.map, noun=noun)
     else:
         ids = frozenset(info.id for info in scene.fitting(query))
@@ -125,13 +125,35 @@ def count(goal: goals.Count, scene: Scene) -> Part:
     return Series(name=name, parts=(*looks, *told, Errand(name="say how many", params=tell)))
 
 
+def _looks_around(ids: frozenset[str], scene: Scene) -> tuple[Part, ...]:
+    """A look over the room that the robot is in, and over those around if none is seen there.
+
+    In a room where nothing can stand, a corridor say, nobody asks about that room.
+    """
+    here = tolerant(_look_over_the_room(scene))
+    beside = scene.knowledge.rooms_beside(scene.room)
+    around = tuple(place.id for place in to_look_over(beside, scene))
+    if not around:
+        return (here,)
+    look = Errand(name="look over the rooms around", params=InspectParams(place_ids=around))
+    further = tolerant(look)
+    if not to_look_over(scene.knowledge.rooms(scene.room), scene):
+        return (here, further)
+    seen = Branch(
+        name="seen here",
+        question=answers.is_there(ids, ()),
+        then=Series(name="go on", parts=()),
+        otherwise=further,
+    )
+    return (here, seen)
+
+
 def _look_over_the_room(scene: Scene) -> Part:
     """A look over every surface of the room that the robot is in; from here if that is unknown."""
     world_map = scene.knowledge.map
     rooms = {place.room for place in surfaces_of(world_map)}
     room = scene.room
-    here = [place for place in scene.knowledge.places(room) if place.id == place.room]
-    found = to_look_over(here, scene) if room else ()
+    found = to_look_over(scene.knowledge.rooms(room), scene)
     if not found and len(rooms) <= 1:
         found = tuple(surfaces_of(world_map))
     name = f"look over the {room}" if room and found else "look around"

@@ -19,6 +19,7 @@ from executive.skills.say import SayParams
 from executive.skills.search import SearchParams
 from executive.trees.parts import Branch, Each, Errand, Kept, Part, Settle, errands, walk
 from intents import goals
+from intents.relations import Viewpoint
 from intents.state import RobotState
 from robot import messages as m
 from robot.failures import Failure
@@ -443,6 +444,47 @@ def test_a_count_in_a_room_says_what_could_not_be_seen():
     assert dict(look.handlers).keys() == {"place_not_seen"}  # the top of the fridge, say
     told = tell.params(board()).text
     assert told.startswith("I see 0 boxes in the kitchen. I have not seen all of the ")
+
+
+def _counting(world: _Kitchen, *, at_x_m: float) -> list[tuple[str, Part]]:
+    goal = goals.Count(object=goals.ObjectQuery(name="tea box"))
+    state = RobotState(view=Viewpoint(x_m=at_x_m, y_m=0.0, yaw_rad=0.0))
+    where = msgspec.structs.replace(WHERE, world=world)
+    outcome = meant("count the tea boxes", (goal,), where, state=state)
+    assert isinstance(outcome, Understood)
+    return list(walk(outcome.task))
+
+
+def _with_a_cellar() -> _Kitchen:
+    """North of the kitchen, with a bench."""
+    world = _Kitchen()
+    table, hall = world.map.place("table"), world.map.place("hall")
+    assert table is not None
+    assert hall is not None
+    bench = msgspec.structs.replace(table, id="bench", X_WP=SE3((0, 6, 1)), room="cellar")
+    cellar = msgspec.structs.replace(
+        hall, id="cellar", name="cellar", room="cellar", X_WP=SE3((0, 6.2, 0))
+    )
+    world.map = msgspec.structs.replace(world.map, places=(*world.map.places, cellar, bench))
+    return world
+
+
+def test_a_count_of_no_place_goes_on_in_the_rooms_around_where_none_is_here():
+    steps = _counting(_with_a_cellar(), at_x_m=0.0)
+    (branch,) = [part for _, part in steps if isinstance(part, Branch)]
+    (further,) = errands(branch.otherwise)
+    assert further.params.place_ids == ("bench",)
+    assert not list(errands(branch.then))
+    assert branch.question(board(tea=(0.0, 2.5)))
+    assert not branch.question(board(red=(0.0, 2.5)))
+
+
+def test_a_count_in_a_corridor_looks_over_the_rooms_around():
+    steps = _counting(_with_a_cellar(), at_x_m=6.0)
+    assert not [part for _, part in steps if isinstance(part, Branch)]
+    around, further, _ = [part for _, part in steps if isinstance(part, Errand)]
+    assert around.params.place_ids == ()
+    assert set(further.params.place_ids) == {"counter", "table", "lower_rack", "upper_rack"}
 
 
 def test_what_was_not_looked_at_is_told_by_rooms_where_there_are_several():
