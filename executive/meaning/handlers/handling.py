@@ -116,10 +116,19 @@ def put_several(
         stays = Series(name=f"{info.full_name} is there", parts=())
         asked = f"is {info.full_name} there already"
         seen = Branch(name=asked, question=is_there, then=stays, otherwise=work)
-        fetch = Series(name=work.name, parts=(search(info, query, scene), seen))
+        look = _unless_known(info, search(info, query, scene))
+        fetch = Series(name=work.name, parts=(look, seen))
         return Branch(name=asked, question=is_there, then=stays, otherwise=fetch)
 
     return several(found, f"bring several things to the {target}", unless_there)
+
+
+def _unless_known(info: ObjectInfo, look: Part) -> Part:
+    """A search for a thing, unless it was seen somewhere: who takes it looks there anyway."""
+    known = answers.is_there(frozenset({info.id}), ())
+    nothing = Series(name="go on", parts=())
+    name = f"was {info.full_name} seen"
+    return Branch(name=name, question=known, then=nothing, otherwise=look)
 
 
 def give(goal: goals.Give, scene: Scene) -> Part:

@@ -410,6 +410,23 @@ def test_what_somebody_has_is_not_taken_from_them(goal):
 # --- the end ------------------------------------------------------------------------------------
 
 
+def test_of_several_things_only_those_are_looked_for_that_nobody_has_seen():
+    """Between two cans the robot went to see the second one before it went to take it."""
+    searched = [
+        part
+        for part in parts("put all mugs on the table", Branch)
+        if any(isinstance(one.params, SearchParams) for one in errands(part.otherwise))
+        and not list(errands(part.then))
+        and len(list(errands(part.otherwise))) == 1
+    ]
+    assert len(searched) == 3
+    for branch in searched:
+        (look,) = errands(branch.otherwise)
+        mug = look.params.object_id
+        assert branch.question(board(**{mug: (0.0, 2.5)}))
+        assert not branch.question(board())
+
+
 @pytest.mark.parametrize(
     ("text", "checked"),
     [
