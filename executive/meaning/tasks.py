@@ -112,16 +112,36 @@ def _repeat(goal: goals.Repeat, scene: Scene) -> Part:
 
 
 def _for_each(goal: goals.ForEach, scene: Scene) -> Part:
+    asked = _without_taking(goal.goals)
+
     def one(info: ObjectInfo) -> Part:
         scene.spoken_of = info.id
-        in_turn = tuple(_with_id(child, info) for child in goal.goals)
+        in_turn = tuple(_with_id(child, info) for child in asked)
         return Series(name=f"with {info.full_name}", parts=sequence(in_turn, scene))
 
-    match goal.goals:
+    match asked:
         case (goals.Place(on=str(to)) | goals.Place(in_=str(to)) | goals.Bring(to=str(to)),):
             return handling.put_several(goal.object, to, scene, one)
         case _:
             return steps.several(scene.objects(goal.object), "for each", one)
+
+
+def _without_taking(asked: tuple[goals.Goal, ...]) -> tuple[goals.Goal, ...]:
+    """The goals of each round without taking "it" before it is put, brought or given: they do.
+
+    "Collect the books and put them on the shelf" leaves those alone that are there already.
+    """
+    match asked:
+        case (
+            goals.Pick(object=goals.ObjectQuery(held=True)),
+            goals.Place(object=goals.ObjectQuery(held=True))
+            | goals.Bring(object=goals.ObjectQuery(held=True))
+            | goals.Give(object=goals.ObjectQuery(held=True)),
+            *_,
+        ):
+            return asked[1:]
+        case _:
+            return asked
 
 
 def _with_id(goal: goals.Goal, info: ObjectInfo) -> goals.Goal:

@@ -21,8 +21,8 @@ HANDY_M = (0.5, 1.3)
 LARGEST_BLOCK_M2 = 1.0
 """A solid block with a larger top is a machine."""
 ODD_HEIGHT = 0.4
-SAME_WORD = 6.0
-"""A filter is kept in the filter rack."""
+SAME_WORD, SAME_NAME = 6.0, 20.0
+"""A filter is kept in the filter rack, a picture book on the picture book shelf, not the cart."""
 ALIKE_HERE, ALIKE_NEAR = 3.0, 1.5
 """Others of its sort were seen on the surface, or in the same room."""
 KEPT_THERE = 4.0
@@ -97,7 +97,11 @@ def _same_word(info: ObjectInfo, place: Place) -> float:
         if len(word) >= SHORTEST_WORD
     }
     called = " ".join((place.name, *place.synonyms)).casefold().split()
-    return SAME_WORD if any(name.startswith(word) for name in called for word in words) else 1.0
+    shared = {word for word in words if any(name.startswith(word) for name in called)}
+    sort = set(info.category.casefold().split())
+    if len(sort) > 1 and sort <= shared:
+        return SAME_NAME
+    return SAME_WORD if shared else 1.0
 
 
 def _is_known(track: Track) -> bool:

@@ -410,6 +410,18 @@ def test_what_somebody_has_is_not_taken_from_them(goal):
 # --- the end ------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("text", ["collect all mugs and put them on the table",
+                                  "pick up all mugs and bring them to the table"])  # fmt: skip
+def test_who_takes_all_and_puts_them_somewhere_leaves_those_that_are_there(text):
+    """A book that was in place was taken out of its shelf and put back."""
+    asked = [part for part in parts(text, Branch) if "there already" in part.name]
+    assert {part.name for part in asked} == {
+        f"is the {color} mug there already" for color in ("red", "blue", "green")
+    }
+    assert all(part.question(board(red=(0.1, 0.0))) for part in asked if "red" in part.name)
+    assert not any(part.question(board(blue=(0.1, 2.5))) for part in asked if "blue" in part.name)
+
+
 def test_of_several_things_only_those_are_looked_for_that_nobody_has_seen():
     """Between two cans the robot went to see the second one before it went to take it."""
     searched = [

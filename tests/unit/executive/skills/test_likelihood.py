@@ -85,6 +85,17 @@ def test_a_place_that_is_called_after_such_things_is_likely() -> None:
     assert of(BOOK)["book rack"].worth > of(CAN)["book rack"].worth
 
 
+def test_a_place_called_after_just_such_things_is_more_likely_than_one_after_others() -> None:
+    """Picture books were looked for on a book cart and a book repair table first."""
+    shelf = surface("picture book shelf", "shelf", 0.0, 0.9)
+    cart = surface("book cart", "shelf", 2.0, 0.9)
+    home = msgspec.structs.replace(MAP, places=(shelf, cart))
+    found = {one.place.id: one.worth for one in prospects(thing("red", "picture book"), home, ())}
+    assert found["picture book shelf"] > found["book cart"]
+    others = {one.place.id: one.worth for one in prospects(BOOK, home, ())}
+    assert others["picture book shelf"] == others["book cart"]
+
+
 def room(name: str, *synonyms: str) -> Place:
     return Place(
         id=name, name=name, X_WP=SE3(), size_m=(4, 4), room=name, floor=True, synonyms=synonyms
