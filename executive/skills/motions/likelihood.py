@@ -27,7 +27,7 @@ ALIKE_HERE, ALIKE_NEAR = 3.0, 1.5
 """Others of its sort were seen on the surface, or in the same room."""
 KEPT_THERE = 4.0
 """Mugs are kept in kitchens, glue on workbenches."""
-SHORTEST_WORD = 4
+LONG_WORD = 4
 SAID, LIKELY, UNLIKELY = range(3)
 """Ranks: where it was said to be, then where it may well be, then everywhere else."""
 
@@ -53,12 +53,14 @@ def prospects(
     found: list[Prospect] = []
     for place in surfaces:
         things = here.get(place.id, [])
-        rank = SAID if place.id in wanted else UNLIKELY if _is_odd(place, things) else LIKELY
+        called_so = _same_word(info, place)
+        odd = called_so == 1.0 and place.id not in kept and _is_odd(place, things)
+        rank = SAID if place.id in wanted else UNLIKELY if odd else LIKELY
         alike = any(other.category == info.category for other in things)
         near = ALIKE_NEAR if place.room and place.room in rooms else 1.0
         worth = _usual(place) * (ALIKE_HERE if alike else near)
         worth *= KEPT_THERE if place.room in kept or place.id in kept else 1.0
-        found.append(Prospect(place=place, worth=worth * _same_word(info, place), rank=rank))
+        found.append(Prospect(place=place, worth=worth * called_so, rank=rank))
     return found
 
 
@@ -89,19 +91,20 @@ def _is_odd(place: Place, things: list[ObjectInfo]) -> bool:
 
 
 def _same_word(info: ObjectInfo, place: Place) -> float:
-    """More for a place that is called after such things: "bookshelf" for a book."""
-    words = {
-        word.casefold()
-        for name in (info.plain_name, info.category, *info.synonyms)
-        for word in name.split()
-        if len(word) >= SHORTEST_WORD
-    }
+    """More for a place that is called after such things: "bookshelf" for a book, "toy chest"."""
+    names = (info.plain_name, info.category, *info.synonyms)
+    words = {word.casefold() for name in names for word in name.split()} - {place.kind}
     called = " ".join((place.name, *place.synonyms)).casefold().split()
-    shared = {word for word in words if any(name.startswith(word) for name in called)}
+    shared = {word for word in words if any(_begins(name, word) for name in called)}
     sort = set(info.category.casefold().split())
     if len(sort) > 1 and sort <= shared:
         return SAME_NAME
     return SAME_WORD if shared else 1.0
+
+
+def _begins(name: str, word: str) -> bool:
+    """Whether a name begins with a word; with a short one only if it is that."""
+    return name.startswith(word) if len(word) >= LONG_WORD else name == word and len(word) > 2
 
 
 def _is_known(track: Track) -> bool:
