@@ -110,12 +110,12 @@ class UnmappedObstacles:
             self._merge(group.min(axis=0), group.max(axis=0), stamp_s)
         self._clusters = [one for one in self._clusters if stamp_s - one.seen_s < self._forget_s]
 
-    def obstacles(self) -> tuple[Obstacle, ...]:
-        """What is believed, as boxes on the floor."""
+    def obstacles(self, *, since_s: float = -math.inf) -> tuple[Obstacle, ...]:
+        """What is believed, as boxes on the floor; of that only what was seen since a time."""
         return tuple(
             _box(cluster, self._name)
             for cluster in self._clusters
-            if cluster.scans >= SCANS_TO_BELIEVE
+            if cluster.scans >= SCANS_TO_BELIEVE and cluster.seen_s >= since_s
         )
 
     def _unexplained(self, scan: LidarScan, X_WLidar: SE3) -> Array:

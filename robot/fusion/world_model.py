@@ -34,6 +34,8 @@ DEPTH_TOLERANCE_M = 0.03
 EDGE_PX = 6
 WAIST_M, WAIST_RADIUS_M = 0.9, 0.12
 SAME_PERSON_M = 0.6
+WALKS_M_S, LOST_S = 0.4, 2.5
+"""How far somebody may have walked whom no sensor made out for a moment, no longer than that."""
 UNSEEN_S = 0.5
 FORGET_S = 20.0
 
@@ -58,6 +60,7 @@ class WorldModel:
         self._misses: dict[str, int] = {}
         self._holds: dict[str, tuple[Side, SE3]] = {}  # object to hand and X_GO
         self._just_seen: set[str] = set()
+        self._around: dict[str, frozenset[str]] = {}  # by person: what stood anywhere by then
 
     def know(self, objects: tuple[ObjectInfo, ...], people: tuple[PersonInfo, ...] = ()) -> None:
         """Learn what and who there is; those already tracked keep their tracks."""
@@ -154,17 +157,40 @@ class WorldModel:
         for name, track in self._people.items():
             unseen_s = now_s - track.seen_s
             if track.X_WO is None or track.missing or not UNSEEN_S < unseen_s < math.inf:
+                self._around[name] = frozenset(one.id for one in obstacles)
                 continue
-            X_WO = next((o.X_WO for o in obstacles if _is_same_person(o.X_WO, track.X_WO)), None)
+            X_WO = self._walked_to(name, track.X_WO, unseen_s, obstacles)
             if X_WO is not None:
                 at = SE3((*X_WO.p[:2], track.X_WO.p[2]), track.X_WO.quat_wxyz)
                 self._people[name] = Track(id=name, X_WO=at, seen_s=now_s)
+                self._around[name] = frozenset(one.id for one in obstacles)
             elif unseen_s > FORGET_S:
                 self._people[name] = msgspec.structs.replace(track, missing=True)
 
+    def _walked_to(
+        self, name: str, X_WO: SE3, unseen_s: float, obstacles: tuple[Obstacle, ...]
+    ) -> SE3 | None:
+        """Where somebody is by now: the nearest of what stands about where they were.
 
-def _is_same_person(X_WA: SE3, X_WB: SE3) -> bool:
-    return math.dist(X_WA.p[:2], X_WB.p[:2]) < SAME_PERSON_M
+        Farther off, as far as they can have walked, only what was not around when they were made
+        out last, and is nobody else: the rest is furniture.
+        """
+        walked_m = WALKS_M_S * unseen_s if unseen_s < LOST_S else 0.0
+        before = self._around.get(name, frozenset())
+        others = [
+            track.X_WO.p[:2]
+            for track in self._people.values()
+            if track.id != name and track.X_WO is not None and not track.missing
+        ]
+
+        def may_be(one: Obstacle, apart_m: float) -> bool:
+            new = one.id not in before
+            alone = all(math.dist(one.X_WO.p[:2], other) > SAME_PERSON_M for other in others)
+            return apart_m < SAME_PERSON_M or (apart_m < SAME_PERSON_M + walked_m and new and alone)
+
+        away = [(math.dist(one.X_WO.p[:2], X_WO.p[:2]), one) for one in obstacles]
+        found = [(apart_m, one.X_WO) for apart_m, one in away if may_be(one, apart_m)]
+        return min(found, key=lambda one: one[0])[1] if found else None
 
 
 def _place(

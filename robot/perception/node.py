@@ -45,6 +45,8 @@ MAX_SKEW_S = 0.06
 LOOK_OUT_S = 0.15
 REMEMBER_S = 6.0
 """The camera turns away from what it has seen: it is kept in mind for so long."""
+JUST_SEEN_S = 0.35
+"""Of sensors at 10 Hz, and a picture that comes late: who was seen earlier may have walked on."""
 
 
 class PerceptionNode(Closing):
@@ -282,7 +284,9 @@ class PerceptionNode(Closing):
                 for side, hand in newest.hands.items()
             }
         )
-        self._world.bump(unmapped, self._now_s)
+        seen = {"since_s": self._now_s - JUST_SEEN_S}
+        just_seen = (*self._unmapped.obstacles(**seen), *self._in_view.obstacles(**seen))
+        self._world.bump(just_seen, self._now_s)
         self._bus.publish(
             topics.WORLD_STATE,
             WorldState(

@@ -57,6 +57,16 @@ def test_a_person_beside_the_map_is_found_where_they_stand(unmapped):
     assert max(shape.size_m[:2]) < 0.7
 
 
+def test_what_is_kept_for_a_while_is_told_from_what_is_seen_now(unmapped):
+    """Where somebody had stood kept them there, as the world believed, for two seconds more."""
+    (found,) = look(unmapped, [(1.0, 1.5, 0.25)])
+    assert unmapped.obstacles(since_s=0.1) == (found,)
+    look(unmapped, [(-1.0, 1.5, 0.25)], begin_s=0.5)
+    assert found in unmapped.obstacles()
+    (other,) = unmapped.obstacles(since_s=0.5)
+    assert other.X_WO.p[0] < 0.0
+
+
 def test_what_the_map_has_is_no_news(unmapped):
     discs = [(2.0, 0.0, 0.05), (2.0 + 0.25 * math.cos(0.4), 0.25 * math.sin(0.4), 0.1)]
     assert look(unmapped, discs, scans=10) == ()

@@ -218,6 +218,35 @@ def test_out_of_view_a_person_is_what_the_lidar_sees_nearby(ann):
     assert ann.people()[0].X_WO.p[:2] == pytest.approx((1.8, 0.3))
 
 
+def thing_at(name: str, x_m: float, y_m: float) -> Obstacle:
+    return Obstacle(id=name, name=name, X_WO=SE3((x_m, y_m, 0.0)), shapes=())
+
+
+def test_who_walked_on_while_no_sensor_made_them_out_is_what_is_new_nearby(ann):
+    """Somebody who had made room was asked again, and stepped back from, where they had stood."""
+    ann.see(glimpse(0.0, (0.0, 1.2, 1.5)), X_WC, None)  # at (1.5, 0)
+    clutter = thing_at("clutter", 2.3, 0.0)
+    ann.bump((clutter, thing_at("legs", 1.5, -0.3)), 1.0)
+    ann.bump((clutter,), 1.5)
+    ann.bump((clutter,), 2.0)
+    assert ann.people()[0].X_WO.p[:2] == pytest.approx((1.5, -0.3))
+    ann.bump((clutter, thing_at("new", 1.6, -1.3)), 2.2)
+    assert ann.people()[0].X_WO.p[:2] == pytest.approx((1.6, -1.3))
+
+
+def test_who_was_lost_for_long_is_not_taken_for_whatever_comes_up(ann):
+    ann.see(glimpse(0.0, (0.0, 1.2, 1.5)), X_WC, None)
+    ann.bump((), 5.0)
+    ann.bump((thing_at("new", 1.6, -1.3),), 5.1)
+    assert ann.people()[0].X_WO.p[:2] == pytest.approx((1.5, 0.0))
+
+
+def test_of_several_things_nearby_somebody_out_of_view_is_the_nearest(ann):
+    ann.see(glimpse(0.0, (0.0, 1.2, 1.5)), X_WC, None)
+    ann.bump((thing_at("far", 1.5, 0.5), thing_at("near", 1.5, -0.2)), 1.0)
+    assert ann.people()[0].X_WO.p[:2] == pytest.approx((1.5, -0.2))
+
+
 def test_who_was_not_seen_for_long_by_any_sensor_has_gone_somewhere(ann):
     ann.see(glimpse(0.0, (0.0, 1.2, 1.5)), X_WC, None)
     ann.bump((), FORGET_S - 1.0)
