@@ -1,10 +1,13 @@
 """What singles a thing out, from where, whither and for whom: said in any place, it is not lost."""
 
+import re
+
 import pytest
 
+from intents.english.words.text import Text
 from intents.goals import Bring, Goal, If, Place, each
 from intents.outcomes import Goals, Question, Refusal
-from tests.unit.intents.hotel_words import assert_means_the_same, heard
+from tests.unit.intents.hotel_words import HOTEL, assert_means_the_same, heard
 
 SAME = [
     # which one it is, told behind it
@@ -130,3 +133,10 @@ def test_who_is_spoken_of_gets_it() -> None:
 def test_a_question_alone_is_no_condition() -> None:
     outcome = heard("is the cap on the counter? tell Hans")
     assert not (isinstance(outcome, Goals) and isinstance(outcome.goals[0], If))
+
+
+@pytest.mark.parametrize("said", [said for said, _ in SAME])
+def test_wherever_a_speaker_breaks_off_the_words_are_taken_in(said: str) -> None:
+    words = re.findall(r"[\w'-]+|[^\w\s]", said)
+    for end in range(len(words)):
+        Text(" ".join(words[:end]), HOTEL)
