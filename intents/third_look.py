@@ -35,9 +35,15 @@ from intents.second_look import (
     remarked,
 )
 
-SURE, KEPT, LIKELY = 0.6, 0.25, 0.3
-"""From the first on the network's reading is acted on, though from the second on the grammar's
-stays; from the third on it is asked about."""
+SURE, LIKELY = 0.7, 0.35
+"""From the first on the network's reading is acted on; from the second on it is asked about."""
+FOUND = 0.6
+"""So sure the network itself has to be of the words that are acted on."""
+SURER = 0.9
+"""From here on it is acted on where something is said that a network may well guess: a condition,
+how long, how far."""
+KEPT = 0.25
+"""From here on the orders that the grammar read from every word stay."""
 SHORT = 6
 """In so few words the one that the grammar asks about may well matter: "the lamp, gingerly"."""
 _BY_THE_WAY = (Wait, Stop, Cancel, Pause, Say, Report, LookAt)
@@ -82,15 +88,25 @@ def third_look(
     said = None if other is None or not isinstance(other.outcome, Goals) else other
     if isinstance(before.outcome, Goals):
         return before if own >= KEPT else _without_talk(text, before, said, both, likely)
-    offers = isinstance(before.outcome, Question) and before.outcome.goals
-    is_short = len(text.split()) <= SHORT and said and offers == said.goals
-    lacks = isinstance(before.error, Idle) or lost(both) or is_short or _measures(text)
-    lacks = lacks or (said is not None and _loses_count(text, index, said.goals))
-    if said and likely >= SURE and not lacks:
+    if said and likely >= SURE and not _lacks(text, index, before, both, likely):
         return _taken(said, both)
-    if said and likely >= LIKELY and not offers:
+    if said and likely >= LIKELY and not _offers(before):
         return _asked(text, said, "I did not get every word")
     return before
+
+
+def _offers(before: Attempt) -> tuple[Goal, ...]:
+    """What the grammar asks whether it is meant."""
+    return before.outcome.goals if isinstance(before.outcome, Question) else ()
+
+
+def _lacks(text: str, index: NameIndex, before: Attempt, both: Both, likely: float) -> bool:
+    """Whether something may be missing in what the network says, however sure it is."""
+    goals = both.other.goals
+    is_short = len(text.split()) <= SHORT and _offers(before) == goals
+    guessed = both.likely < FOUND
+    guessed |= likely < SURER and (_measures(text) or _limits(text))
+    return bool(lost(both)) or is_short or guessed or _loses_count(text, index, goals)
 
 
 def _without_talk(
@@ -134,22 +150,20 @@ def looked(
 
 
 def _is_open(text: str, before: Attempt) -> bool:
-    """Whether other words might be read better than those that were said."""
-    if (
-        (not before.goals and is_settled(text, before))
-        or is_plain(text)
-        or len(text.split()) > LONGEST
-        or _limits(text)
-    ):
+    """Whether other words might be read better than those that were said.
+
+    What the grammar says it cannot keep, or will not do, no other words make possible.
+    """
+    if isinstance(before.error, Unasked | Offered | Unpromised) or type(before.error) is Partly:
         return False
-    if isinstance(before.error, Unasked | Offered | Unpromised):
+    is_done = not before.goals and is_settled(text, before)
+    if is_done or is_plain(text) or len(text.split()) > LONGEST:
         return False
     if isinstance(before.outcome, Goals):
         beside = len(before.goals) > 1 and any(map(_is_by_the_way, before.goals))
-        return beside and not is_settled(text, before)
-    if type(before.error) is Partly:  # that says what of it cannot be kept
-        return False
-    return before.outcome.puzzled or isinstance(before.error, Idle)
+        return beside and not is_settled(text, before) and not _limits(text)
+    is_asked = isinstance(before.outcome, Question)
+    return before.outcome.puzzled or is_asked or isinstance(before.error, Idle)
 
 
 def _measures(text: str) -> bool:

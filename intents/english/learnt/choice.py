@@ -15,7 +15,7 @@ import msgspec
 from intents.english.faithfulness import CARRYING
 from intents.english.learnt.field import LEARNT, Fields
 from intents.english.learnt.trust import RIGHT, act
-from intents.english.words import limits
+from intents.english.words import lexicon, limits
 from intents.goals import Goal, to_builtins
 
 OWN, OTHER = "own", "other"
@@ -27,6 +27,7 @@ _KINDS = (
     ("condition", limits.CONDITIONS), ("time", limits.TIMES), ("denial", limits.DENIALS),
     ("choice", limits.CHOICES), ("quantity", limits.QUANTITIES), ("measure", limits.MEASURES),
     ("spot", limits.SPOTS), ("quality", CARRYING),
+    ("exception", lexicon.words("except exept xept cept excepting bar but save besides apart")),
 )  # fmt: skip
 """Kinds of words that would limit an order."""
 _WORD, _END = re.compile(r"[\w']+"), re.compile(r"[.!?…](?:\s|$)")

@@ -19,7 +19,7 @@ from intents.goals import Bring, Wait
 from intents.outcomes import Goals, Question
 from intents.parser import first_look, parse
 from intents.second_look import Attempt
-from intents.third_look import third_look
+from intents.third_look import FOUND, SURER, third_look
 from intents.vocabulary import Vocabulary
 
 OBSERVATORY = Vocabulary.of(
@@ -95,8 +95,9 @@ def test_what_cannot_be_kept_or_was_only_told_is_not_acted_on(said: str) -> None
 class Says(Heard):
     """What says the same of every sentence."""
 
-    def __init__(self, plain: str) -> None:
+    def __init__(self, plain: str, likely: float = 0.9) -> None:
         self.plain = plain
+        self.likely = likely
         self.units = []
         self.is_whole = True
 
@@ -107,7 +108,7 @@ class Says(Heard):
 
     def paraphrase(self) -> Paraphrase:
         """What it always says."""
-        return Paraphrase(self.plain, 0.9)
+        return Paraphrase(self.plain, self.likely)
 
 
 def trusting(own: float, other: float) -> dict[str, Field]:
@@ -139,6 +140,18 @@ def test_what_is_likely_is_done_what_may_be_asked_and_what_is_neither_left() -> 
     assert left.outcome == first_look(STRANGE, OBSERVATORY, Context()).outcome
     for none in (NOTHING, ASK):
         assert looked(STRANGE, Says(none)).outcome == left.outcome
+
+
+def test_words_that_the_network_itself_is_not_sure_of_are_asked_about() -> None:
+    unsure = Says(ORDER.plain, likely=FOUND - 0.01)
+    assert isinstance(looked(STRANGE, unsure, other=0.99).outcome, Question)
+
+
+@pytest.mark.parametrize("limit", ["whenever the sky is clear", "for ten minutes or so"])
+def test_where_a_condition_or_a_measure_may_be_guessed_it_has_to_be_surer(limit: str) -> None:
+    said = f"{limit}, {STRANGE}"
+    assert not isinstance(looked(said, ORDER, other=SURER - 0.01).outcome, Goals)
+    assert isinstance(looked(said, ORDER, other=SURER + 0.01).outcome, Goals)
 
 
 def test_what_the_grammar_names_as_not_kept_is_not_said_away() -> None:
