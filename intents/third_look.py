@@ -20,7 +20,7 @@ from intents.english.trouble import (
     Unpromised,
 )
 from intents.english.words import lexicon
-from intents.english.words.limits import CONDITIONS, MEASURES
+from intents.english.words.limits import CONDITIONS, MEASURES, TIMES
 from intents.english.words.measures import number
 from intents.english.words.names import NameIndex
 from intents.goals import Cancel, Goal, LookAt, Pause, Report, Say, Stop, Wait
@@ -41,7 +41,7 @@ FOUND = 0.6
 """So sure the network itself has to be of the words that are acted on."""
 SURER = 0.9
 """From here on it is acted on where something is said that a network may well guess: a condition,
-how long, how far."""
+when, how long, how far."""
 KEPT = 0.25
 """From here on the orders that the grammar read from every word stay."""
 SHORT = 6
@@ -105,7 +105,7 @@ def _lacks(text: str, index: NameIndex, before: Attempt, both: Both, likely: flo
     goals = both.other.goals
     is_short = len(text.split()) <= SHORT and _offers(before) == goals
     guessed = both.likely < FOUND
-    guessed |= likely < SURER and (_measures(text) or _limits(text))
+    guessed |= likely < SURER and (_measures(text) or _limits(text) or _tells_when(text))
     return bool(lost(both)) or is_short or guessed or _loses_count(text, index, goals)
 
 
@@ -169,6 +169,11 @@ def _is_open(text: str, before: Attempt) -> bool:
 def _measures(text: str) -> bool:
     """Whether it is said how long or how far: of what may well be guessed."""
     return not MEASURES.isdisjoint(_WORDS.findall(text.lower()))
+
+
+def _tells_when(text: str) -> bool:
+    """Whether it is said when: of what may well be lost."""
+    return not TIMES.isdisjoint(_WORDS.findall(text.lower()))
 
 
 def _loses_count(text: str, index: NameIndex, goals: Sequence[Goal]) -> bool:

@@ -148,7 +148,7 @@ def test_words_that_the_network_itself_is_not_sure_of_are_asked_about() -> None:
 
 
 @pytest.mark.parametrize("limit", ["whenever the sky is clear", "for ten minutes or so"])
-def test_where_a_condition_or_a_measure_may_be_guessed_it_has_to_be_surer(limit: str) -> None:
+def test_where_a_time_or_a_measure_may_be_guessed_it_has_to_be_surer(limit: str) -> None:
     said = f"{limit}, {STRANGE}"
     assert not isinstance(looked(said, ORDER, other=SURER - 0.01).outcome, Goals)
     assert isinstance(looked(said, ORDER, other=SURER + 0.01).outcome, Goals)
