@@ -37,11 +37,11 @@ from intents.second_look import (
 
 SURE, LIKELY = 0.7, 0.35
 """From the first on the network's reading is acted on; from the second on it is asked about."""
-FOUND = 0.6
-"""So sure the network itself has to be of the words that are acted on."""
+FOUND, HEARD = 0.6, 0.3
+"""So sure the network itself has to be of the words that are acted on, and asked about."""
 SURER = 0.9
-"""From here on it is acted on where something is said that a network may well guess: a condition,
-when, how long, how far."""
+"""From here on it is acted on where an order is left out as talk, or something is said that a
+network may well guess: when, how long, how far."""
 KEPT = 0.25
 """From here on the orders that the grammar read from every word stay."""
 SHORT = 6
@@ -90,7 +90,7 @@ def third_look(
         return before if own >= KEPT else _without_talk(text, before, said, both, likely)
     if said and likely >= SURE and not _lacks(text, index, before, both, likely):
         return _taken(said, both)
-    if said and likely >= LIKELY and not _offers(before):
+    if said and likely >= LIKELY and both.likely >= HEARD and not _offers(before):
         return _asked(text, said, "I did not get every word")
     return before
 
@@ -104,8 +104,8 @@ def _lacks(text: str, index: NameIndex, before: Attempt, both: Both, likely: flo
     """Whether something may be missing in what the network says, however sure it is."""
     goals = both.other.goals
     is_short = len(text.split()) <= SHORT and _offers(before) == goals
-    guessed = both.likely < FOUND
-    guessed |= likely < SURER and (_measures(text) or _limits(text) or _tells_when(text))
+    guessed = both.likely < FOUND or isinstance(before.error, Idle)
+    guessed |= likely < SURER and (_measures(text) or _tells_when(text))
     return bool(lost(both)) or is_short or guessed or _loses_count(text, index, goals)
 
 
@@ -115,7 +115,7 @@ def _without_talk(
     """Orders that are not to be trusted, without what was read out of talk beside them."""
     if both.plain == NOTHING:
         return _asked(text, before, "I am not sure that I got that")
-    if said is None or likely < SURE or any(goal not in before.goals for goal in said.goals):
+    if said is None or likely < SURER or any(goal not in before.goals for goal in said.goals):
         return before
     left_out = (goal for goal in before.goals if goal not in said.goals)
     return _taken(said, both) if all(map(_is_by_the_way, left_out)) else before
@@ -152,18 +152,17 @@ def looked(
 def _is_open(text: str, before: Attempt) -> bool:
     """Whether other words might be read better than those that were said.
 
-    What the grammar says it cannot keep, or will not do, no other words make possible.
+    What the grammar says it cannot keep, will not do or has to ask, no other words make clear.
     """
     if isinstance(before.error, Unasked | Offered | Unpromised) or type(before.error) is Partly:
         return False
     is_done = not before.goals and is_settled(text, before)
-    if is_done or is_plain(text) or len(text.split()) > LONGEST:
+    if is_done or is_plain(text) or _limits(text) or len(text.split()) > LONGEST:
         return False
     if isinstance(before.outcome, Goals):
         beside = len(before.goals) > 1 and any(map(_is_by_the_way, before.goals))
-        return beside and not is_settled(text, before) and not _limits(text)
-    is_asked = isinstance(before.outcome, Question)
-    return before.outcome.puzzled or is_asked or isinstance(before.error, Idle)
+        return beside and not is_settled(text, before)
+    return before.outcome.puzzled or isinstance(before.error, Idle)
 
 
 def _measures(text: str) -> bool:

@@ -158,15 +158,21 @@ class Page(Devtools):
         return [json.dumps(one["params"])[:2000] for one in (*wrong, *logged)]
 
     def click(self, selector: str) -> None:
-        """Press the middle of an element with the mouse."""
+        """Press the middle of an element with the mouse, once it has come to rest."""
         self.call("Page.bringToFront")
-        at = self.eval(
-            f"(() => {{ const b = document.querySelector({json.dumps(selector)})"
-            ".getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()"
-        )
+        before, at = None, self._middle(selector)
+        while at != before:
+            time.sleep(POLL_S)
+            before, at = at, self._middle(selector)
         for kind in ("mousePressed", "mouseReleased"):
             self.call("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button="left",
                       buttons=1, clickCount=1)  # fmt: skip
+
+    def _middle(self, selector: str) -> list[float]:
+        return self.eval(
+            f"(() => {{ const b = document.querySelector({json.dumps(selector)})"
+            ".getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()"
+        )
 
     def drag(self, start: tuple[float, float], end: tuple[float, float]) -> None:
         """Drag with the left button."""
