@@ -6,6 +6,7 @@ machine that went to others is measured (Linux, `/proc`), not guessed from how a
 """
 
 import os
+import statistics
 import threading
 import time
 from collections.abc import Callable
@@ -32,12 +33,10 @@ def in_paces(work: Callable[[], object], *, tries: int = 7, warm: bool = False) 
         work()
     took_s, pace_s = list[float](), list[float]()
     for _ in range(tries):
+        pace_s.append(_pace_s())
         began_s = time.thread_time()
-        sum(n * n for n in range(STEPS))
-        between_s = time.thread_time()
         work()
-        pace_s.append(between_s - began_s)
-        took_s.append(time.thread_time() - between_s)
+        took_s.append(time.thread_time() - began_s)
     return min(took_s) / min(pace_s)
 
 
@@ -50,12 +49,14 @@ def slowness() -> float:
 
     Cores that are shared with other guests of a host count what they wait for one another.
     """
-    took_s = list[float]()
-    for _ in range(5):
-        began_s = time.thread_time()
-        sum(n * n for n in range(STEPS))
-        took_s.append(time.thread_time() - began_s)
-    return max(1.0, sorted(took_s)[2] / PACE_S)
+    return max(1.0, statistics.median(_pace_s() for _ in range(5)) / PACE_S)
+
+
+def _pace_s() -> float:
+    """What a plain loop takes now, in processor time of this thread."""
+    began_s = time.thread_time()
+    sum(n * n for n in range(STEPS))
+    return time.thread_time() - began_s
 
 
 class Others:

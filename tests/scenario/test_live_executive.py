@@ -56,7 +56,6 @@ def run(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.rest
 def test_it_goes_on_when_killed_while_walking_and_while_carrying(run):
     run.kill_while("walking to the red cup")
     assert eventually(lambda: len(run.events("resumed")) == 1)

@@ -15,7 +15,6 @@ pytestmark = [pytest.mark.slow, pytest.mark.live]
 DOMAIN = 7
 
 
-@pytest.mark.rest
 def test_a_ros2_machine_sees_drives_orders_and_stops_a_robot(humanoid):  # noqa: F811
     endpoint = free_endpoint()
     with machines(endpoint, domain=DOMAIN) as peer:

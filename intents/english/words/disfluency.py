@@ -273,7 +273,7 @@ def _renamed(tokens: list[Token], index: NameIndex) -> list[Token]:
         if new is None or old is None or words[new.end : new.end + 1] != [COMMA]:
             continue
         alike = {one.kind for one in new.names} & {one.kind for one in old.names}
-        if alike and words[new.end + 1 : new.end + 2] and words[new.end + 1] in _PREPOSITIONS:
+        if alike and not _PREPOSITIONS.isdisjoint(words[new.end + 1 : new.end + 2]):
             return [*tokens[:begin], *tokens[first : new.end], *tokens[new.end + 1 :]]
     return tokens
 
