@@ -158,15 +158,25 @@ class Page(Devtools):
         return [json.dumps(one["params"])[:2000] for one in (*wrong, *logged)]
 
     def click(self, selector: str) -> None:
-        """Press the middle of an element with the mouse, once it has come to rest."""
+        """Press the middle of an element with the mouse, once it rests; again if it had moved."""
         self.call("Page.bringToFront")
-        before, at = None, self._middle(selector)
-        while at != before:
-            time.sleep(POLL_S)
-            before, at = at, self._middle(selector)
-        for kind in ("mousePressed", "mouseReleased"):
-            self.call("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button="left",
-                      buttons=1, clickCount=1)  # fmt: skip
+        until_s = time.monotonic() + HANG_S
+        while time.monotonic() < until_s:
+            before, at = None, self._middle(selector)
+            while at != before:
+                time.sleep(POLL_S)
+                before, at = at, self._middle(selector)
+            self.eval(
+                "window.hit = undefined; addEventListener('mousedown', (event) => { window.hit ="
+                f" Boolean(event.target.closest({json.dumps(selector)})); }},"
+                " { capture: true, once: true })"
+            )
+            for kind in ("mousePressed", "mouseReleased"):
+                self.call("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button="left",
+                          buttons=1, clickCount=1)  # fmt: skip
+            if self.eval("window.hit") is not False:  # None: it led to another page
+                return
+        raise TimeoutError(f"{selector} is not under the mouse: it moves, or something covers it")
 
     def _middle(self, selector: str) -> list[float]:
         return self.eval(

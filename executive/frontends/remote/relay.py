@@ -18,7 +18,7 @@ import msgspec
 
 from executive.frontends.line_server import is_own
 from executive.frontends.remote.invitation import SERVER_NAME, Invitation, client_context
-from executive.frontends.remote.wire import BEAT, BEAT_S, BYE, ECHO, sent
+from executive.frontends.remote.wire import BEAT, BEAT_S, BYE, RobotClock, echoed_s, sent
 from executive.frontends.service import messages as m
 from executive.frontends.service import place as places
 from executive.frontends.service.place import Place, Running
@@ -56,6 +56,7 @@ class Relay:
         self._invitation = invitation
         self._context = client_context(invitation)
         self._tell = tell
+        self._clock = RobotClock()
         self._serving: set[asyncio.Task[None]] = set()
 
     async def run(self) -> None:
@@ -127,7 +128,7 @@ class Relay:
         writer.write(m.line_of(m.Status(number=1)))
         with suppress(OSError, ValueError, TimeoutError):
             async with asyncio.timeout(CONNECT_S):
-                while data := await reader.readline():
+                async for data in self._told(reader):
                     with suppress(msgspec.DecodeError, RecursionError):
                         told = m.told(data)
                         if isinstance(told, m.Ended) and told.standing is not None:
@@ -145,11 +146,12 @@ class Relay:
                 await asyncio.sleep(AGAIN_S)
                 with suppress(OSError, TimeoutError):
                     link = await self._connected()
+                    self._clock = RobotClock()  # its machine may have been booted
                 continue
             reader, writer = link
             beating = asyncio.create_task(_beat(writer))
             try:
-                async for _ in _told(reader):  # nothing was asked
+                async for _ in self._told(reader):  # nothing was asked
                     pass
             except asyncio.CancelledError:
                 writer.write(BYE)
@@ -173,8 +175,8 @@ class Relay:
         gate: asyncio.StreamWriter | None = None
         try:
             there, gate = await self._connected()
-            asking = asyncio.create_task(_pass_on(reader, gate))
-            both = {asking, asyncio.create_task(_pass_back(there, writer)),
+            asking = asyncio.create_task(self._pass_on(reader, gate))
+            both = {asking, asyncio.create_task(self._pass_back(there, writer)),
                     asyncio.create_task(_beat(gate))}  # fmt: skip
             try:
                 await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
@@ -190,6 +192,32 @@ class Relay:
             if gate is not None:
                 gate.close()
 
+    async def _told(self, reader: asyncio.StreamReader) -> AsyncIterator[bytes]:
+        """The lines that come from the gate, but for its beats, until it ends or falls silent."""
+        with suppress(OSError, ValueError, TimeoutError):
+            while True:
+                async with asyncio.timeout(SILENT_S):
+                    data = await reader.readline()
+                if not data.endswith(b"\n"):
+                    return
+                if (there_s := echoed_s(data)) is None:
+                    yield data
+                else:
+                    self._clock.hear(there_s, now_s())
+
+    async def _pass_back(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        """Tell what the gate tells, until that ends or this terminal is too far behind."""
+        async for data in self._told(reader):
+            if not _written(writer, data):
+                return
+
+    async def _pass_on(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        """Ask the gate what a terminal asks, until that ends or the gate is too far behind."""
+        with suppress(OSError, ValueError):
+            while (data := await reader.readline()).endswith(b"\n"):
+                if not _written(writer, sent(data, self._clock)):
+                    return
+
 
 def _reason(error: Exception) -> str:
     """What an error of a connection says, also one that says nothing."""
@@ -203,33 +231,6 @@ async def _beat(writer: asyncio.StreamWriter) -> None:
     while not writer.transport.is_closing():
         writer.write(BEAT)
         await asyncio.sleep(BEAT_S)
-
-
-async def _told(reader: asyncio.StreamReader) -> AsyncIterator[bytes]:
-    """The lines that come from the gate, but for its beats, until it ends or falls silent."""
-    with suppress(OSError, ValueError, TimeoutError):
-        while True:
-            async with asyncio.timeout(SILENT_S):
-                data = await reader.readline()
-            if not data.endswith(b"\n"):
-                return
-            if data != ECHO:
-                yield data
-
-
-async def _pass_back(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-    """Tell what the gate tells, until that ends or this terminal is too far behind."""
-    async for data in _told(reader):
-        if not _written(writer, data):
-            return
-
-
-async def _pass_on(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-    """Ask the gate what a terminal asks, until that ends or the gate is too far behind."""
-    with suppress(OSError, ValueError):
-        while (data := await reader.readline()).endswith(b"\n"):
-            if not _written(writer, sent(data, now_s())):
-                return
 
 
 def _written(writer: asyncio.StreamWriter, data: bytes) -> bool:

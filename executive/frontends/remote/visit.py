@@ -14,11 +14,11 @@ import msgspec
 
 from executive.frontends.remote.wire import (
     ANYBODYS,
-    ECHO,
     Beat,
     Bye,
     arrived,
     asked_by,
+    echo,
     line,
     refusal,
 )
@@ -149,7 +149,7 @@ class Visit:
                 match asked:
                     case Beat():
                         self._beat()
-                        self._write(ECHO)
+                        self._write(b"")
                     case Bye():
                         self._bye = True
                     case _:
@@ -233,9 +233,10 @@ class Visit:
         self.end()
 
     def _write(self, data: bytes) -> None:
+        """Tell something; whoever beats is told the time first."""
         if self._is_gone or self._writer.is_closing():
             return
-        self._writer.write(data)
+        self._writer.write(echo(now_s()) + data if self._beats else data)
         if self._writer.transport.get_write_buffer_size() > MOST_BEHIND:
             self.end()  # too far behind
 

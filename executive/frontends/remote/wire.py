@@ -2,12 +2,15 @@
 
 A link carries the lines of `executive.frontends.service.messages`, and two more: a beat, ten times
 a second, by which the gate knows that the link holds, and a goodbye, after which it need not. The
-gate answers each beat, so that the other end knows the same.
+gate answers each beat with its clock's time, so that the other end knows the same; so it does
+before whatever it tells (`RobotClock`).
 """
 
 from __future__ import annotations
 
+import math
 import re
+from contextlib import suppress
 
 import msgspec
 
@@ -35,9 +38,16 @@ class Bye(msgspec.Struct, frozen=True, tag_field="ask", tag="bye", forbid_unknow
     """The link is ended on purpose: the robot goes on."""
 
 
+class Echo(msgspec.Struct, frozen=True, tag_field="tell", tag="beat", forbid_unknown_fields=True):
+    """The gate heard; `now_s`: when it says so, in seconds since the boot of its machine."""
+
+    now_s: float
+
+
 _lines = msgspec.json.Decoder(m.Request | Beat | Bye)
+_echoes = msgspec.json.Decoder(Echo)
 BEAT, BYE = msgspec.json.encode(Beat()) + b"\n", msgspec.json.encode(Bye()) + b"\n"
-ECHO = b'{"tell":"beat"}\n'
+_ECHO_BEGINS = b'{"tell":"beat"'
 
 
 def line(data: bytes) -> m.Request | Beat | Bye:
@@ -60,12 +70,52 @@ def asked_by(role: Role, asked: m.Request) -> m.Request:
     return asked
 
 
-def sent(data: bytes, now_s: float) -> bytes:
-    """A line of a terminal as it goes over the link: when that began, by this machine's clock.
+def echo(now_s: float) -> bytes:
+    """The line by which the gate says that it hears, at a time of its clock [s]."""
+    return msgspec.json.encode(Echo(now_s)) + b"\n"
+
+
+def echoed_s(data: bytes) -> float | None:
+    """When the gate said that it hears, by its clock [s]; None: the line says something else."""
+    if not data.startswith(_ECHO_BEGINS):
+        return None
+    with suppress(msgspec.DecodeError):
+        return _echoes.decode(data).now_s
+    return None
+
+
+class RobotClock:
+    """The clock of the robot's machine, as far as it is known here: never ahead of it.
+
+    What the robot's clock showed when something was sent is less than what it shows when that
+    arrives; so whatever was begun here before a stop is told as begun before it, however long the
+    way is, and what was begun after the robot had told of the stop as begun after it.
+    """
+
+    DRIFT = 1e-3
+    """More than any two clocks part [s/s]."""
+
+    def __init__(self) -> None:
+        """Nothing is known of it."""
+        self._ahead_s = -math.inf
+        self._heard_s = 0.0
+
+    def hear(self, there_s: float, here_s: float) -> None:
+        """It showed `there_s` when that was sent, and the clock here `here_s` when it came."""
+        known_s = self._ahead_s - self.DRIFT * (here_s - self._heard_s)
+        self._ahead_s, self._heard_s = max(there_s - here_s, known_s), here_s
+
+    def at(self, here_s: float) -> float:
+        """What it showed at least when the clock here showed `here_s`; 0 if nothing is known."""
+        return max(0.0, here_s + self._ahead_s)
+
+
+def sent(data: bytes, clock: RobotClock) -> bytes:
+    """A line of a terminal as it goes over the link: when it was begun, by the robot's clock.
 
     Args:
         data: the line; what is none goes on as it is.
-        now_s: seconds since boot.
+        clock: the robot's.
     """
     try:
         asked = m.request(data)
@@ -73,8 +123,7 @@ def sent(data: bytes, now_s: float) -> bytes:
         return data
     if not isinstance(asked, m.Say | m.Watch) or asked.begun_s is None:
         return data
-    ago_s = min(max(0.0, now_s - asked.begun_s), m.MOST_AGO_S)
-    return m.line_of(msgspec.structs.replace(asked, begun_s=None, ago_s=ago_s))
+    return m.line_of(msgspec.structs.replace(asked, begun_s=clock.at(asked.begun_s)))
 
 
 def arrived(asked: m.Request, now_s: float) -> m.Request:
@@ -86,8 +135,8 @@ def arrived(asked: m.Request, now_s: float) -> m.Request:
     """
     if not isinstance(asked, m.Say | m.Watch):
         return asked
-    begun_s = now_s - (asked.ago_s or 0.0)
-    here = msgspec.structs.replace(asked, begun_s=begun_s, ago_s=None)
+    begun_s = now_s if asked.begun_s is None else min(now_s, asked.begun_s)
+    here = msgspec.structs.replace(asked, begun_s=begun_s)
     return msgspec.structs.replace(here, afar=True) if isinstance(here, m.Say) else here
 
 

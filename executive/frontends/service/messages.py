@@ -50,10 +50,6 @@ class Press(_Request, frozen=True, kw_only=True, tag="press"):
     quiet: bool = False
 
 
-MOST_AGO_S = 3600.0
-Ago = Annotated[float, Meta(ge=0.0, le=MOST_AGO_S)]
-
-
 class Say(_Request, frozen=True, kw_only=True, tag="say"):
     """A line, as at the prompt.
 
@@ -61,8 +57,8 @@ class Say(_Request, frozen=True, kw_only=True, tag="say"):
         wait: it ends when all that comes of it is over.
         stops: so often the robot had been told to stop, as far as was known where the line was
             typed; a stop since then is about this line too (None: as when it arrives).
-        begun_s: when it was asked for, in seconds since boot, where how often is not known.
-        ago_s: over a link: so long ago it was asked for, as clocks of two machines differ.
+        begun_s: when it was asked for, in seconds since the boot of the robot's machine, where how
+            often is not known.
         spoken: it is a sentence, or an answer, and no command of the prompt.
         afar: whoever says it may not see the robot, nor who stands near it.
     """
@@ -71,7 +67,6 @@ class Say(_Request, frozen=True, kw_only=True, tag="say"):
     wait: bool = False
     stops: int | None = None
     begun_s: float | None = None
-    ago_s: Ago | None = None
     spoken: bool = False
     afar: bool = False
 
@@ -111,13 +106,11 @@ class Watch(_Request, frozen=True, kw_only=True, tag="watch"):
         recent: and, first, what was said before.
         begun_s: when whoever watches began, in seconds since boot: a stop since then is about
             what was handed to them.
-        ago_s: as of `Say`.
     """
 
     views: bool = False
     recent: bool = True
     begun_s: float | None = None
-    ago_s: Ago | None = None
 
 
 class Down(_Request, frozen=True, kw_only=True, tag="down"):

@@ -14,6 +14,8 @@ import pytest
 
 from executive.frontends.remote import gate as gates
 from executive.frontends.remote import invitation as invitations
+from executive.frontends.remote import relay as relays
+from executive.frontends.remote import tie as ties
 from executive.frontends.remote import wire
 from executive.frontends.remote.authority import Authority, utc_now
 from executive.frontends.remote.gate import Gate
@@ -58,13 +60,20 @@ def going_on(work):
 
 
 class Network:
-    """A way between relay and gate that can fail: it loses all, or ends."""
+    """A way between relay and gate that can fail: it loses all, or ends, or keeps all for a while.
+
+    Attributes:
+        is_dead: nothing arrives.
+        open: what goes to the gate arrives; else once it is set again.
+    """
 
     def __init__(self, port):
         self._port = port
         self._listening = socket.create_server(("127.0.0.1", 0))
         self.port = self._listening.getsockname()[1]
         self.is_dead = False
+        self.open = threading.Event()
+        self.open.set()
         self._ends: list[socket.socket] = []
         threading.Thread(target=self._accept, daemon=True).start()
 
@@ -80,6 +89,8 @@ class Network:
     def _pass(self, one, other):
         with suppress(OSError):
             while data := one.recv(1 << 16):
+                if other.getpeername()[1] == self._port:
+                    self.open.wait()
                 if not self.is_dead:  # nobody is told
                     other.sendall(data)
             other.shutdown(socket.SHUT_WR)
@@ -94,6 +105,7 @@ class Network:
         with suppress(OSError):
             self._listening.shutdown(socket.SHUT_RDWR)
         self._listening.close()
+        self.open.set()
         self.cut()
 
 
@@ -206,6 +218,21 @@ def test_a_stop_covers_what_was_asked_for_before_it_and_comes_after_it(house):
         ask(place, m.Say(text="go to the table", begun_s=before_s))
         ask(place, m.Say(text="go to the shelf", begun_s=now_s()))
         assert house.told.did == ["stop", "go to the table (0)", "go to the shelf (1)"]
+
+
+def test_a_stop_covers_what_is_under_way_over_a_slow_link(house, monkeypatch):
+    monkeypatch.setattr(ties, "LOST_S", HANG_S)
+    monkeypatch.setattr(relays, "SILENT_S", HANG_S)
+    robot = next(one for one in places.places_up() if one.name == "robot")
+    with house.visited() as (place, _), Connection(place) as anna:
+        anna.ask(m.Status(), lambda told: None, wait_s=HANG_S)
+        house.told.did.clear()
+        house.network.open.clear()
+        anna.send(m.Say(text="go to the table", begun_s=now_s()))
+        assert ask(robot, m.Press(button="stop"))[0].status == ExitStatus.DONE
+        house.network.open.set()
+        assert eventually(lambda: len(house.told.did) == 2)
+        assert house.told.did == ["stop", "go to the table (0)"]
 
 
 def test_who_watches_stops_by_a_line_and_sets_nothing_going(house):

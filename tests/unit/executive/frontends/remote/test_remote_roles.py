@@ -6,6 +6,8 @@ from typing import get_args
 
 import msgspec
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from executive.frontends.remote import wire
 from executive.frontends.remote.invitation import ROLES, Role
@@ -71,19 +73,45 @@ def test_lines_over_the_link_are_what_they_were(asked):
     assert wire.line(msgspec.json.encode(asked)) == asked
 
 
-@pytest.mark.parametrize(("there_s", "here_s"), [(1e6, 50.0), (10.0, 1e7)])
-def test_when_it_was_asked_for_is_told_by_how_long_ago_that_was(there_s, here_s):
-    for asked in (m.Say(text="wave", begun_s=there_s - 2.0), m.Watch(begun_s=there_s - 2.0)):
-        came = wire.line(wire.sent(m.line_of(asked), there_s))
-        assert came.begun_s is None
-        assert wire.arrived(came, here_s).begun_s == pytest.approx(here_s - 2.0)
+ways_s = st.lists(st.floats(0.0, 5.0), min_size=1, max_size=20)
+
+
+@given(ahead_s=st.floats(-1e6, 1e6), ways_s=ways_s, before_s=st.floats(0.0, 3.0))
+def test_the_robots_clock_is_never_ahead_and_right_from_when_it_was_told(ahead_s, ways_s, before_s):
+    clock, here_s = wire.RobotClock(), 2e6
+    assert clock.at(here_s) == 0.0
+    for way_s in ways_s:
+        there_s = here_s + ahead_s
+        here_s += way_s
+        clock.hear(there_s, here_s)
+        # Whatever comes after word of `there_s`, is after that; what was before, before.
+        assert clock.at(here_s) >= there_s - 1e-6
+        for then_s in (here_s, here_s - before_s):
+            assert clock.at(then_s) <= then_s + ahead_s + 1e-6
+        asked = m.Say(text="wave", begun_s=here_s - before_s)
+        came = wire.line(wire.sent(m.line_of(asked), clock))
+        assert came.begun_s == clock.at(asked.begun_s)
+        assert wire.arrived(came, here_s + ahead_s + 1.0).begun_s == came.begun_s
+
+
+def test_a_clock_that_runs_slower_is_followed():
+    clock = wire.RobotClock()
+    for k in range(1000):
+        clock.hear(5e6 + 0.1 * k * 0.9995, 0.1 * k)
+    assert clock.at(100.0) <= 5e6 + 100.0 * 0.9995 + 1e-3
+
+
+@pytest.mark.parametrize("data", [b'{"tell":"words","text":"x"}\n', b'{"tell":"beat"}\n', b"[\n"])
+def test_what_tells_no_time_is_no_echo(data):
+    assert wire.echoed_s(data) is None
+    assert wire.echoed_s(wire.echo(7.5)) == 7.5
 
 
 def test_a_clock_that_comes_over_the_link_is_none_of_this_machine():
     assert wire.arrived(m.Say(text="wave", begun_s=1e9), 50.0).begun_s == 50.0
     assert wire.arrived(m.Say(text="wave"), 50.0).afar
     assert wire.arrived(m.Status(number=1), 50.0) == m.Status(number=1)
-    assert wire.sent(b"nonsense\n", 50.0) == b"nonsense\n"
+    assert wire.sent(b"nonsense\n", wire.RobotClock()) == b"nonsense\n"
 
 
 @pytest.mark.parametrize("data", [b"", b"{}", b'{"ask":"beat","x":1}', b"[" * 5000, b'"\xff"'])
@@ -94,4 +122,4 @@ def test_other_lines_are_none(data):
 
 def test_a_terminal_passes_over_what_answers_a_beat():
     with pytest.raises(msgspec.DecodeError):
-        m.told(wire.ECHO)
+        m.told(wire.echo(1.0))
