@@ -13,7 +13,7 @@ from robot.drivers.simulation.shared_plant import PlantServer, SharedPlant
 from robot.reality import faults
 from robot.reality.faults import FAULT
 from sim import world
-from sim.live import PATIENCE_S, LivePlant
+from sim.live import PATIENCE_S, REST, LivePlant
 from sim.plant import Plant
 
 
@@ -71,6 +71,30 @@ def test_an_answering_controller_keeps_the_wall_clock(parts, hold, monkeypatch):
     assert plant.time_s == pytest.approx(0.2, abs=0.003)
     assert clock.now_s() - begun_s == pytest.approx(0.2, abs=0.005)
     assert plant.read().motors.command_stamp_s >= plant.time_s - 0.003
+
+
+@pytest.mark.parametrize("took_s", [0.003, 0.03])
+def test_a_simulation_that_runs_late_leaves_a_share_to_others(parts, hold, monkeypatch, took_s):
+    """It never sleeps otherwise, and all that is not real-time waits."""
+    plant, live, motors, _, clock = parts
+    sleep, slept_s = clock.sleep_until, []
+
+    def note(time_s):
+        slept_s.append(time_s - clock.now_s())
+        sleep(time_s)
+
+    def answered(period_ms, step=plant.step):
+        step(period_ms)
+        motors.write(hold(plant.time_s))
+        sleep(clock.now_s() + took_s)
+
+    motors.write(hold(0.0))
+    monkeypatch.setattr(clock, "sleep_until", note)
+    monkeypatch.setattr(plant, "step", answered)
+    for _ in range(100):
+        live.period()
+    assert plant.time_s == pytest.approx(0.2, abs=0.005)
+    assert min(slept_s[-10:]) >= REST * took_s - 1e-9
 
 
 def test_a_late_answer_is_taken_and_the_next_one_waited_for(parts, hold):
