@@ -2,11 +2,12 @@
 
 import math
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.skills.motions.support import supported
+from executive.skills.motions.support import stands_on, supported
 from robot.se3 import SE3
 from tests.fakes.stage import TABLE_M, kitchen
 
@@ -34,3 +35,24 @@ def test_an_upright_thing_near_a_surface_stands_on_it(x, y, off, yaw):
 )
 def test_anything_else_stays_where_it_was_seen(X_WO):
     assert supported(X_WO, CUP, MAP.places) is X_WO
+
+
+@pytest.mark.parametrize("sunk_m", [0.0, 0.03, 0.05, 0.079])
+def test_what_is_seen_sunk_from_afar_stands_on_the_surface(sunk_m: float) -> None:
+    """The middle of a cup 2.6 m away was seen level with the table: every grasp touched that."""
+    place = MAP.place("table")
+    bottom_m = 0.5 * CUP.shape.size_m[2]
+    x_m, y_m, z_m = place.X_WP.p
+    seen = SE3((x_m, y_m, z_m + bottom_m - sunk_m))
+    assert supported(seen, CUP, MAP.places).p == pytest.approx((x_m, y_m, z_m + bottom_m))
+    assert stands_on(SE3((x_m, y_m, z_m + 0.01 - 0.5 * sunk_m)), place), "a flat thing as well"
+
+
+def test_of_two_surfaces_the_nearer_one_counts() -> None:
+    low = msgspec.structs.replace(MAP.place("table"), id="low")
+    x_m, y_m, z_m = low.X_WP.p
+    high = msgspec.structs.replace(low, id="high", X_WP=SE3((x_m, y_m, z_m + 0.07)))
+    bottom_m = 0.5 * CUP.shape.size_m[2]
+    for places in ((low, high), (high, low)):
+        seen = SE3((x_m, y_m, z_m + 0.01 + bottom_m))
+        assert supported(seen, CUP, places).p[2] == pytest.approx(z_m + bottom_m)
