@@ -99,8 +99,6 @@ class Plant:
         self.profile = profile(reality)
         self.world = placed(world, seeds[0])
         self.robot = robot
-        # MuJoCo writes its warnings to a file where we stand; `step` raises instead.
-        mujoco.set_mju_user_warning(_ignore)
         self.model = compile_scene(self.world, robot, timestep_s=physics_ms / 1000.0)
         self.data = mujoco.MjData(self.model)
         self.motors = Motors(self.model, self.data, robot)
@@ -419,7 +417,3 @@ def _extent(model: mujoco.MjModel, geom: int) -> tuple[float, float]:
     if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_CYLINDER:
         return x, 2.0 * y
     return math.hypot(x, y), 2.0 * z
-
-
-def _ignore(_text: str) -> None:
-    """Hear a warning of MuJoCo."""

@@ -19,6 +19,15 @@ from robot.files.ordinary_files import read_ordinary
 from robot.model import mjcf_files
 from robot.model.mjcf_files import MAX_XML_BYTES
 
+
+def _unwritten(_text: str) -> None:
+    """Hear a warning of MuJoCo: what it is about shows in the numbers, and is looked for there."""
+
+
+# Unheard, it goes into MUJOCO_LOG.TXT of the current folder, and through a link that a stranger
+# left there into any file of this user's.
+mujoco.set_mju_user_warning(_unwritten)
+
 SETTINGS = frozenset({"option", "compiler", "inertial"})
 """Elements that an overlay changes rather than repeats."""
 

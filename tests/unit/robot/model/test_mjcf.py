@@ -1,5 +1,7 @@
 """An overlay adds to a published model; a model that is not there is an error with its cure."""
 
+import math
+
 import mujoco
 import pytest
 
@@ -92,3 +94,15 @@ def test_a_published_model_that_is_nowhere_is_an_error_with_the_cure(tmp_path):
     (problem,) = caught.value.problems
     assert problem.suggestion == "git clone it"
     assert str(tmp_path / "first") in problem.message
+
+
+def test_a_warning_of_mujoco_goes_through_no_link_that_lies_where_we_stand(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    theirs = tmp_path / "theirs"
+    (tmp_path / "MUJOCO_LOG.TXT").symlink_to(theirs)
+    model = mujoco.MjModel.from_xml_string(BASE)
+    data = mujoco.MjData(model)
+    data.qpos[0] = math.nan
+    mujoco.mj_step(model, data)
+    assert data.warning[mujoco.mjtWarning.mjWARN_BADQPOS].number == 1
+    assert not theirs.exists()
