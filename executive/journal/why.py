@@ -139,7 +139,9 @@ def _unreadable(run: Run) -> Explanation:
 
 def _cut_off(run: Run, *, linked: bool) -> Explanation:
     verdict = f"The journal ends at {run.end_s:.1f} s without an outcome: it was cut off."
-    cure = "go on where it was with `humanoid resume`, or see logs/ in its folder"
+    cure = "go on where it was with `humanoid resume`"
+    if run.about.get("runtime") != "fast":  # that one has no processes of its own
+        cure += ", or see logs/ in its folder"
     if run.unreadable or run.missing or not run.asked:  # as `humanoid resume` refuses
         cure = ANEW
     elif linked:

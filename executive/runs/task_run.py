@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, Protocol
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple, Protocol
 
 import msgspec
 from msgspec.structs import replace
@@ -77,12 +77,37 @@ def do(assignment: Assignment, session: Session, *, show: Show, wall: Clock) -> 
     return see_through(assignment, session, begin=begin, show=show, wall=wall)
 
 
+class Before(NamedTuple):
+    """What lies behind of a run that is gone on with in its own folder.
+
+    Attributes:
+        since_s: when it began, by the runtime's clock.
+        begun_s: when doing it again began, by the wall's.
+        events: that were done again.
+    """
+
+    since_s: float
+    begun_s: float
+    events: Sequence[Event]
+
+
 def see_through(
-    assignment: Assignment, session: Session, *, begin: Callable[[], None], show: Show, wall: Clock
+    assignment: Assignment,
+    session: Session,
+    *,
+    begin: Callable[[], None],
+    show: Show,
+    wall: Clock,
+    before: Before | None = None,
 ) -> Summary:
-    """Begin, or go on, and run a session until nothing is left to do; write its summary."""
-    begun_s, since_s = wall.now_s(), session.now_s
+    """Begin, or go on, and run a session until nothing is left to do; write its summary.
+
+    What lies `before` counts as well: the summary is of the whole run.
+    """
+    since_s, begun_s, past = before or Before(session.now_s, wall.now_s(), ())
     expected: list[Expected] = []
+    for event in past:
+        _note(event, expected)
     with show(session.executive) as progress:
         session.journal.listen(lambda event: _note(event, expected))
         session.on_tick(progress.update)

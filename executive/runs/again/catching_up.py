@@ -24,7 +24,7 @@ from executive.runs.again.comparison import Checked, Difference
 from executive.runs.again.recording import Recording
 from executive.runs.runtimes import Setup
 from executive.runs.summary import Summary
-from executive.runs.task_run import Show, see_through
+from executive.runs.task_run import Before, Show, see_through
 from robot.clock import Clock
 from robot.errors import ConfigError, Problem
 
@@ -84,7 +84,7 @@ def go_on(recorded: Recording, where: Setting, screen: Screen) -> Summary:
     kept = Journal(
         recorded.folder, wall_s=screen.time_of_day, lines=checked, wall_from=len(recorded.lines)
     )
-    interrupts = Interrupts()
+    interrupts, begun_s = Interrupts(), screen.wall.now_s()
     with (
         interrupts.listen(),
         runtimes.opened(setup) as robot,
@@ -96,7 +96,10 @@ def go_on(recorded: Recording, where: Setting, screen: Screen) -> Summary:
             replay.catch_up(session, recorded, checked=checked, follow=follow)
         if checked.difference is not None:
             raise CannotGoOn(checked.difference)
-        return see_through(assignment, session, begin=_nothing, show=screen.show, wall=screen.wall)
+        before = Before(recorded.events[0].t_s, begun_s, recorded.events)
+        return see_through(
+            assignment, session, begin=_nothing, show=screen.show, wall=screen.wall, before=before
+        )
 
 
 def _nothing() -> None:

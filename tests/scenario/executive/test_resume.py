@@ -1,6 +1,7 @@
 """Runs that were cut off are gone on with: to the same journal in `fast`, to the same end live."""
 
 import json
+import shutil
 from pathlib import Path
 
 import msgspec
@@ -32,6 +33,12 @@ def cut(source: str, target: str, share: float) -> bytes:
     return whole
 
 
+def summed_up(folder: str) -> dict[str, object]:
+    """What the summary says of a run, but for where it lies and what the wall's clock measured."""
+    told = json.loads(Path(folder, "summary.json").read_text())
+    return {key: value for key, value in told.items() if key not in ("wall_s", "folder")}
+
+
 @pytest.mark.parametrize("share", [0.4, 0.9])
 def test_a_fast_run_ends_with_the_journal_of_one_that_was_never_cut(
     runtime, humanoid, anew, share  # noqa: F811
@@ -45,11 +52,27 @@ def test_a_fast_run_ends_with_the_journal_of_one_that_was_never_cut(
     assert status == 0, text
     assert text.count("Done.") == 1
     assert Path("runs/b/journal.jsonl").read_bytes() == whole
-    assert json.loads(Path("runs/b/summary.json").read_text())["status"] == "done"
+    assert summed_up("runs/b") == summed_up("runs/a")
     lines = Path("runs/b/wall.jsonl").read_text().splitlines()
     numbers = [json.loads(line)["n"] for line in lines]
     assert numbers == sorted(set(numbers))
     assert numbers[-1] == len(whole.splitlines()) - 1
+
+
+def test_what_a_mission_found_before_it_was_cut_off_is_in_its_summary(
+    runtime, humanoid, anew  # noqa: F811
+):  # fmt: skip
+    Path("m.yaml").write_text("name: m\nsteps: [say: hello]\nexpect: [holding: false]\n")
+    assert humanoid("mission", "run", "m.yaml", "--fast", "--run-dir", "runs/a")[0] == 0
+    lines = Path("runs/a/journal.jsonl").read_bytes().splitlines(keepends=True)
+    found = next(at for at, line in enumerate(lines) if b'"event":"expect"' in line)
+    shutil.copytree("runs/a", "runs/b")
+    Path("runs/b/journal.jsonl").write_bytes(b"".join(lines[: found + 1]))
+    Path("runs/b/summary.json").unlink()
+    anew()
+    assert humanoid("resume", "runs/b")[0] == 0
+    assert summed_up("runs/b") == summed_up("runs/a")
+    assert summed_up("runs/b")["expected"]
 
 
 def test_a_run_that_does_not_repeat_is_not_gone_on_with(runtime, humanoid, anew):  # noqa: F811

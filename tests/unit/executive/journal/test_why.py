@@ -118,6 +118,13 @@ def test_a_run_that_was_killed_tells_where_it_was():
     assert "humanoid resume" in told.text
 
 
+@pytest.mark.parametrize(("runtime", "said"), [("live", True), ("fast", False)])
+def test_logs_are_named_only_where_there_are_processes_that_write_some(runtime, said):
+    header = {"text": "squat", "runtime": runtime}
+    events = [Event(0, 0.0, "run", header), *journal(*FAILS[:4])[1:]]
+    assert ("logs/" in explained(events).text) is said
+
+
 def test_a_run_under_way_tells_what_it_does_and_its_trouble_so_far():
     told = explained(journal(*FAILS), live=True)
     assert told.status == "going on"
