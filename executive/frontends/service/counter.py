@@ -11,6 +11,7 @@ import threading
 from collections import deque
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from dataclasses import replace
 from typing import NamedTuple
 
 import msgspec
@@ -40,6 +41,8 @@ KEPT_WORDS = 100
 LEAVING = ("quit", "exit")
 ELSEWHERE = "the operator said stop in another terminal"
 NOT_LEFT = "That is for a prompt; `humanoid down` ends this robot."
+LEAVES = "leave; the robot goes on (also Ctrl-D), `humanoid down` ends it"
+"""What those of `LEAVING` do at another terminal, where leaving stops nothing."""
 
 
 class _Asker(NamedTuple):
@@ -87,6 +90,8 @@ class Counter(Closing):
         self._closing = threading.Event()
         self._worker = ThreadPoolExecutor(max_workers=1, thread_name_prefix="lines")
         self._out, shell.out = shell.out, self._say
+        for name in shell.commands.keys() & set(LEAVING):
+            shell.commands[name] = replace(shell.commands[name], summary=LEAVES, run=self._not_left)
         shell.robot.on_submit = self._note_job
         self._server = LineServer(
             places.listen(place, running, backlog=MOST_CLIENTS),
@@ -111,6 +116,10 @@ class Counter(Closing):
         self._server.close()
         self._shell.out = self._out
         self._worker.shutdown(wait=False, cancel_futures=True)
+
+    def _not_left(self, _rest: str) -> None:
+        """What becomes of a line that ends a prompt."""
+        self._say(NOT_LEFT)
 
     # --- what is told ---
 

@@ -11,6 +11,7 @@ from typing import get_args
 import msgspec
 import pytest
 
+from executive.frontends.prompt.command import Command
 from executive.frontends.service import counter as counters
 from executive.frontends.service import messages as m
 from executive.frontends.service import place as places
@@ -228,6 +229,26 @@ def test_a_robot_that_is_lost_ends_all_waiting(counter, told, place):
 def test_what_comes_of_a_line_is_its_status(counter, told, place, text, status, answer):
     ended, words = ask(place, m.Say(text=text, wait=True))
     assert (ended.status, words) == (status, [answer])
+
+
+def test_who_asks_what_quit_does_is_told_that_it_leaves_the_robot_at_work(told, place, log):
+    quits = []
+    told.commands = {
+        name: Command(name=name, usage=name, summary="stop, and leave", run=quits.append)
+        for name in counters.LEAVING
+    }
+    running = Running(pid=7, run="r", private="", world="w", robot="juno", runtime="live")
+    with Counter(told, place=place, running=running, log=log), Connection(place) as connection:
+        connection.send(m.Watch())
+        hello = next(
+            one for one in map(views.told, connection.lines()) if isinstance(one, views.Hello)
+        )
+        for command in told.commands.values():
+            command.run("")
+    assert {row.name: row.summary for row in hello.commands} == dict.fromkeys(
+        counters.LEAVING, counters.LEAVES
+    )
+    assert (quits, told.said) == ([], [counters.NOT_LEFT] * 2)
 
 
 def test_an_open_question_makes_no_failure_of_what_is_asked_beside_it(counter, told, place):
