@@ -101,7 +101,7 @@ def place_for_new() -> tuple[Path, str]:
         ConfigError: if others could exchange the current folder, and there is no home.
     """
     try:
-        _check_way(places.HERE)
+        check_way(places.HERE)
     except ConfigError as refused:
         home = places.at_home()
         if home is None:
@@ -109,7 +109,7 @@ def place_for_new() -> tuple[Path, str]:
         try:
             home.parent.mkdir(mode=PRIVATE, parents=True, exist_ok=True)
             home.mkdir(mode=PRIVATE, exist_ok=True)
-            _check_way(home)
+            check_way(home)
         except (ConfigError, OSError):
             raise refused from None
         return home, f"This run is kept in {home}: {refused.problems[0].message}."
@@ -129,7 +129,7 @@ def folder_for(text: str, *, stamp: str, base: Path = places.HERE) -> Path:
     if len(slug) > 40:
         slug = slug[:40].rpartition("-")[0] or slug[:40]
     first = base / f"{stamp}-{slug or 'run'}"
-    _check_way(base)
+    check_way(base)
     with contextlib.suppress(OSError):
         base.mkdir(parents=True, exist_ok=True)
     for folder in [first, *(first.with_name(f"{first.name}-{n}") for n in range(2, MOST_AT_ONCE))]:
@@ -143,12 +143,15 @@ def folder_for(text: str, *, stamp: str, base: Path = places.HERE) -> Path:
     return first
 
 
-def _check_way(folder: Path) -> None:
-    """Refuse a folder that others could exchange while a run writes into it.
+def check_way(folder: Path) -> None:
+    """Refuse a folder that others could exchange while something is done in it.
 
     Who owns a folder on its way, or may write into one that is not sticky, can put another one, or
     a link to one, in the place of what lies in it. Members of a folder's group are trusted, as a
     user's own group often has but one; so is who owns the root folder, root or who stands for it.
+
+    Raises:
+        ConfigError: if others could.
     """
     trusted = (0, os.geteuid(), Path("/").stat().st_uid)
     try:
@@ -194,7 +197,7 @@ def claim(folder: Path, *, wanted: bool = True) -> None:
     Raises:
         ConfigError: if it is in use, of another user, no folder, or others could exchange it.
     """
-    _check_way(folder)
+    check_way(folder)
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         with contextlib.suppress(FileExistsError):

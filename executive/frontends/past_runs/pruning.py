@@ -14,6 +14,7 @@ from pathlib import Path
 
 from executive.frontends.output import ask, say
 from executive.journal import holding, journal, past_runs, places
+from executive.runs.run_folder import check_way
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 
@@ -115,17 +116,28 @@ def _why_not(folder: Path) -> str:
         return "is gone"
     if not stat.S_ISDIR(found.st_mode):
         return "is a link"
-    if folder.parent.is_symlink():
-        return f"is reached through a link, {folder.parent}"
+    if way := _wrong_way(folder.parent):
+        return way
     if found.st_uid != os.geteuid():
         return "belongs to another user"
     return "is under way" if journal.is_written(folder) else ""
 
 
+def _wrong_way(place: Path) -> str:
+    """Why nothing is removed from a folder: somebody could put another one, or a link, there."""
+    if place.is_symlink():
+        return f"is reached through a link, {place}"
+    try:
+        check_way(place)
+    except ConfigError as refused:
+        return f"lies where somebody could exchange it: {refused.problems[0].message}"
+    return ""
+
+
 @contextmanager
 def _held(folder: Path) -> Generator[bool]:
     """Keep runs out of a folder inside the block; whether that could be done."""
-    if folder.parent.is_symlink():
+    if _wrong_way(folder.parent):
         yield False
         return
     try:

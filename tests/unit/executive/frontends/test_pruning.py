@@ -124,6 +124,18 @@ def test_a_link_is_neither_followed_nor_removed(tmp_path, capsys):
     assert not inner.exists() and (elsewhere / FILE).exists()
 
 
+def test_nothing_is_removed_where_others_could_put_another_folder_in_its_place(here, capsys):
+    folder = run("a")
+    here.chmod(0o777)
+    assert prune(keep=0) == ExitStatus.DONE
+    assert not pruning.removed(folder)
+    assert names() == ["a"] and not (folder / holding.LOCK).exists()
+    assert "can be changed by every user" in capsys.readouterr().err
+    here.chmod(0o1777)
+    prune(keep=0)
+    assert names() == []
+
+
 @pytest.mark.skipif(os.geteuid() != 0, reason="takes root to give a file away")
 def test_another_users_run_stays(capsys):
     folder = run("a")
