@@ -6,7 +6,6 @@ import contextlib
 import errno
 import os
 import re
-import stat
 from itertools import islice
 from pathlib import Path
 from typing import Annotated
@@ -20,6 +19,7 @@ from executive.runs import provenance
 from executive.runs.provenance import Origin
 from executive.runs.runtimes import Setup
 from robot.errors import ConfigError, Problem
+from robot.files.exchangeable import check_way
 from robot.files.ordinary_files import is_within, make_below, read_ordinary, write_ordinary
 from robot.files.yaml_nodes import MAX_BYTES
 from robot.messages import EyesBy, LocalisedBy
@@ -90,6 +90,7 @@ MOST_AT_ONCE = 100
 MOST_MISSIONS = 1000
 """Files that a run of a stranger has kept."""
 FULL = (errno.ENOSPC, errno.EDQUOT)
+ELSEWHERE = "name a folder of your own with --run-dir, or begin in one"
 PRIVATE = 0o700
 """Mode of a run's folder: it says what was said, by whom, and where people and things were."""
 
@@ -101,7 +102,7 @@ def place_for_new() -> tuple[Path, str]:
         ConfigError: if others could exchange the current folder, and there is no home.
     """
     try:
-        check_way(places.HERE)
+        check_way(places.HERE, cure=ELSEWHERE)
     except ConfigError as refused:
         home = places.at_home()
         if home is None:
@@ -109,7 +110,7 @@ def place_for_new() -> tuple[Path, str]:
         try:
             home.parent.mkdir(mode=PRIVATE, parents=True, exist_ok=True)
             home.mkdir(mode=PRIVATE, exist_ok=True)
-            check_way(home)
+            check_way(home, cure=ELSEWHERE)
         except (ConfigError, OSError):
             raise refused from None
         return home, f"This run is kept in {home}: {refused.problems[0].message}."
@@ -129,7 +130,7 @@ def folder_for(text: str, *, stamp: str, base: Path = places.HERE) -> Path:
     if len(slug) > 40:
         slug = slug[:40].rpartition("-")[0] or slug[:40]
     first = base / f"{stamp}-{slug or 'run'}"
-    check_way(base)
+    check_way(base, cure=ELSEWHERE)
     with contextlib.suppress(OSError):
         base.mkdir(parents=True, exist_ok=True)
     for folder in [first, *(first.with_name(f"{first.name}-{n}") for n in range(2, MOST_AT_ONCE))]:
@@ -141,35 +142,6 @@ def folder_for(text: str, *, stamp: str, base: Path = places.HERE) -> Path:
             break
         return folder
     return first
-
-
-def check_way(folder: Path) -> None:
-    """Refuse a folder that others could exchange while something is done in it.
-
-    Who owns a folder on its way, or may write into one that is not sticky, can put another one, or
-    a link to one, in the place of what lies in it. Members of a folder's group are trusted, as a
-    user's own group often has but one; so is who owns the root folder, root or who stands for it.
-
-    Raises:
-        ConfigError: if others could.
-    """
-    trusted = (0, os.geteuid(), Path("/").stat().st_uid)
-    try:
-        ways = (folder.absolute(), Path(os.path.realpath(folder)))
-    except FileNotFoundError:  # the current folder is gone: nothing can be made in it
-        return
-    for place in dict.fromkeys(place for way in ways for place in (way, *way.parents)):
-        try:
-            found = (place.lstat(), place.stat())
-        except OSError:  # it is not there, and may not be made
-            continue
-        cure = "name a folder of your own with --run-dir, or begin in one"
-        if any(one.st_uid not in trusted for one in found):
-            problem = f"{place} belongs to another user, who could exchange what is written there"
-            raise ConfigError([Problem(problem, suggestion=cure)])
-        if found[1].st_mode & stat.S_IWOTH and not found[1].st_mode & stat.S_ISVTX:
-            problem = f"{place} can be changed by every user, and what is written there exchanged"
-            raise ConfigError([Problem(problem, suggestion=f"{cure}, or chmod o-w {place}")])
 
 
 def check_free(folder: Path) -> None:
@@ -197,7 +169,7 @@ def claim(folder: Path, *, wanted: bool = True) -> None:
     Raises:
         ConfigError: if it is in use, of another user, no folder, or others could exchange it.
     """
-    check_way(folder)
+    check_way(folder, cure=ELSEWHERE)
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         with contextlib.suppress(FileExistsError):

@@ -14,9 +14,9 @@ from pathlib import Path
 
 from executive.frontends.output import ask, say
 from executive.journal import holding, journal, past_runs, places
-from executive.runs.run_folder import check_way
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
+from robot.files.exchangeable import check_way
 
 DAY_S = 86_400.0
 MOST_FILES = 100_000
@@ -128,7 +128,7 @@ def _wrong_way(place: Path) -> str:
     if place.is_symlink():
         return f"is reached through a link, {place}"
     try:
-        check_way(place)
+        check_way(place, cure="")
     except ConfigError as refused:
         return f"lies where somebody could exchange it: {refused.problems[0].message}"
     return ""

@@ -8,14 +8,17 @@ user's caches; those of worlds that come with the package come with it, too.
 from __future__ import annotations
 
 import hashlib
+import os
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import msgspec
 
 from executive.meaning.request import Setting
 from robot.errors import ConfigError, Problem
+from robot.files.exchangeable import check_way
 from robot.files.ordinary_files import make_below
 from robot.files.user_state import user_cache_folder
 from robot.printable import printable
@@ -49,7 +52,7 @@ def needed(where: Setting, *, tell: Tell = tell_on_screen) -> Path | None:
     One that is not there is made first, which takes a while and is said.
 
     Raises:
-        ConfigError: it cannot be made, or kept.
+        ConfigError: it cannot be made, or kept, or somebody else could exchange it.
     """
     if where.world.localisation != "lidar":
         return None
@@ -62,16 +65,40 @@ def needed(where: Setting, *, tell: Tell = tell_on_screen) -> Path | None:
         cure = "set HOME, or XDG_CACHE_HOME"
         raise ConfigError([Problem("there is no folder to keep maps in", suggestion=cure)])
     path = folder / "maps" / name
-    if not path.is_file():
+    _check_private(path)
+    if not _is_whole(path, tell):
         from executive.runs.lidar_maps import led_walk  # a whole simulation
         from robot.fusion.slam import map_file  # scipy, which no other run needs
 
         tell(f"no map of {where.world.name} yet: leading the robot through it first (once)")
         saved = led_walk.survey(where, tell=tell)
-        make_below(folder, folder / "maps")
+        make_below(folder, path.parent)
         map_file.save(path, saved)
         tell(f"the map is kept as {path}")
     return path
+
+
+def _check_private(path: Path) -> None:
+    """Refuse a map by which somebody else could tell the robot where it is."""
+    cure = "set XDG_CACHE_HOME to a folder of your own"
+    check_way(path.parent, cure=cure)
+    with suppress(OSError):
+        if path.lstat().st_uid not in (0, os.geteuid()):
+            raise ConfigError([Problem("belongs to another user", str(path), suggestion=cure)])
+
+
+def _is_whole(path: Path, tell: Tell) -> bool:
+    """Whether a map is there that can be read; one that cannot is made again."""
+    if not os.path.lexists(path):
+        return False
+    from robot.fusion.slam import map_file  # scipy
+
+    try:
+        map_file.load(path)
+    except ConfigError as wrong:
+        tell(f"{path} is made again: {wrong.problems[0].message}")
+        return False
+    return True
 
 
 def _file_name(where: Setting) -> str:

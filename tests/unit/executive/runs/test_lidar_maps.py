@@ -1,11 +1,15 @@
 """Maps are known by what stands fast in a world, and a robot is led to all of it."""
 
+import os
+
 import msgspec
 import pytest
 
 from executive.meaning import request
 from executive.runs import lidar_maps
+from executive.runs.lidar_maps import led_walk
 from executive.runs.lidar_maps.led_walk import goals_of
+from robot.errors import ConfigError
 from robot.fusion.slam import map_file
 from sim import world
 from sim.simulation import SimulatedWorld, Simulation
@@ -42,6 +46,48 @@ def test_the_kitchen_comes_with_its_map():
     path = lidar_maps.needed(where(vary_seed=1), tell=never)
     saved = map_file.load(path)
     assert len(saved.surface) > 300 and 0.6 < saved.height_m < 0.7
+
+
+@pytest.fixture
+def surveyed(tmp_path, monkeypatch):
+    """Worlds that were led through, in a cache of their own; each gets the map of the kitchen."""
+    kitchen = map_file.load(lidar_maps.needed(where()))
+    led: list[str] = []
+
+    def survey(setting, *, tell):
+        led.append(setting.world.name)
+        return kitchen
+
+    monkeypatch.setattr(led_walk, "survey", survey)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    return led
+
+
+@pytest.mark.parametrize(
+    "broken", [b"", b"PK\x03\x04", lambda whole: whole[: len(whole) // 2], lambda _: b"x" * 5000]
+)
+def test_a_kept_map_that_cannot_be_read_is_made_again_and_said(surveyed, broken):
+    told: list[str] = []
+    path = lidar_maps.needed(where("bench"), tell=told.append)
+    whole = path.read_bytes()
+    assert lidar_maps.needed(where("bench"), tell=pytest.fail) == path
+    path.write_bytes(broken(whole) if callable(broken) else broken)
+    assert lidar_maps.needed(where("bench"), tell=told.append) == path
+    assert path.read_bytes() == whole and len(surveyed) == 2
+    assert any("is made again" in text for text in told)
+
+
+def test_a_kept_map_that_others_could_exchange_says_nobody_where_the_robot_is(surveyed, tmp_path):
+    path = lidar_maps.needed(where("bench"), tell=lambda _: None)
+    tmp_path.chmod(0o777)
+    with pytest.raises(ConfigError, match="every user") as refused:
+        lidar_maps.needed(where("bench"))
+    assert "XDG_CACHE_HOME" in refused.value.problems[0].suggestion
+    tmp_path.chmod(0o700)
+    if os.geteuid() == 0:
+        os.chown(path, 65534, 65534)
+        with pytest.raises(ConfigError, match="another user"):
+            lidar_maps.needed(where("bench"))
 
 
 def test_the_robot_is_led_to_every_room_and_comes_back():
