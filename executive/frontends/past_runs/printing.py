@@ -25,6 +25,8 @@ from executive.runs.again import replay as again
 from executive.runs.again.comparison import Difference
 from robot.exit_status import ExitStatus
 
+NARROW_COLUMNS = 72
+"""A terminal in which the table would leave out how a run ended, or what it was about."""
 _STYLES = {"done": "green", "failed": "red", "under way": "yellow"}
 
 
@@ -61,7 +63,11 @@ def history(*, count: int, as_json: bool, everywhere: bool = False) -> int:
     if not shown:
         say(f'There is no run in {HERE}/ yet. Begin with: humanoid do "squat" --fast')
         return ExitStatus.DONE
-    table_screen().print(_table(shown, located=everywhere))
+    screen = table_screen()
+    if screen.width < NARROW_COLUMNS:
+        _list(shown, located=everywhere)
+    else:
+        screen.print(_table(shown, located=everywhere))
     if len(known) > len(shown):
         say(f"{len(known) - len(shown)} older ones: humanoid history --all")
     return ExitStatus.DONE
@@ -135,6 +141,23 @@ def following(words: str, *, quiet: bool) -> Generator[again.Follow]:
         yield follow
 
 
+def _list(shown: Iterable[Past], *, located: bool) -> None:
+    """The same as `_table`, each run in lines of its own."""
+    for one in shown:
+        name = _name(one)
+        say(f"{name}  {one.code or one.ending}", styled=(name, "bold"))
+        say(f"  {one.took_s:.0f} s  {one.runtime}  {one.text}")
+        if located:
+            say(f"  {_home_short(Path(one.folder).parent)}")
+
+
+def _name(one: Past) -> str:
+    """What a run is called by: when it began, or as somebody wanted it."""
+    name = one.folder.rpartition("/")[2].replace("\n", "\\n")
+    stamp = re.match(r"\d{8}-\d{6}", name)
+    return stamp[0] if stamp else name
+
+
 def _table(shown: Iterable[Past], *, located: bool) -> Table:
     table = Table(box=None, pad_edge=False, header_style="bold", expand=True)
     table.add_column("run", no_wrap=True, min_width=15)
@@ -145,10 +168,8 @@ def _table(shown: Iterable[Past], *, located: bool) -> Table:
     if located:
         table.add_column("where", overflow="fold")
     for one in shown:
-        name = one.folder.rpartition("/")[2].replace("\n", "\\n")
-        stamp = re.match(r"\d{8}-\d{6}", name)
         table.add_row(
-            stamp[0] if stamp else name,
+            _name(one),
             f"{one.took_s:.0f} s",
             one.runtime,
             Text(one.code or one.ending, style=_STYLES.get(one.ending, "dim")),

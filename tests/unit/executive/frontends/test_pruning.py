@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from executive.frontends.output import Screen
 from executive.frontends.past_runs import printing, pruning
 from executive.journal import holding, past_runs, places
 from executive.journal.journal import FILE, WALL_FILE
@@ -166,6 +167,19 @@ def test_history_is_of_this_folder_or_of_every_one(tmp_path, capsys):
     printing.history(count=10, as_json=True, everywhere=True)
     out = capsys.readouterr().out
     assert "other" in out and "mine" in out
+
+
+@pytest.mark.parametrize("columns", [20, 40, 71, 72, 200])
+def test_history_says_how_a_run_ended_and_what_it_was_about_however_narrow(
+    columns, capsys, monkeypatch
+):
+    folder = run("20260101-120000-walk")
+    (folder / "run.json").write_text('{"text": "go home", "runtime": "live"}')
+    (folder / "summary.json").write_text('{"code": "no_path", "simulated_s": 12.3}')
+    monkeypatch.setattr(printing, "table_screen", lambda: Screen(width=columns))
+    printing.history(count=10, as_json=False)
+    out = capsys.readouterr().out
+    assert all(words in out for words in ("20260101-120000", "12 s", "live", "no_path", "go home"))
 
 
 def test_a_place_is_noted_once_and_forgotten_when_it_is_gone(tmp_path):
