@@ -6,6 +6,7 @@ import contextlib
 import errno
 import os
 import re
+import stat
 from itertools import islice
 from pathlib import Path
 from typing import Annotated
@@ -13,11 +14,12 @@ from typing import Annotated
 import msgspec
 from msgspec import Meta
 
-from executive.journal import holding, places
-from executive.journal.journal import FILE
+from executive.journal import holding, motion, places, sensed
+from executive.journal.journal import FILE, WALL_FILE
 from executive.runs import provenance
 from executive.runs.provenance import Origin
 from executive.runs.runtimes import Setup
+from robot import shots
 from robot.errors import ConfigError, Problem
 from robot.files.exchangeable import check_way
 from robot.files.ordinary_files import is_within, make_below, read_ordinary, write_ordinary
@@ -29,6 +31,13 @@ MISSIONS = "missions"
 
 LOGS = "logs"
 """Folder in that of a run: what the processes of a live one write."""
+
+WRITTEN = (
+    FILE, WALL_FILE, motion.FILE, sensed.FILE, shots.COLOUR_FILE, shots.DEPTH_FILE,
+    "run.json", "summary.json", "timing.json",
+)  # fmt: skip
+"""Files of a run. In a stranger's folder one may be a pipe, whose writer waits for ever when it is
+full, or a link that leads elsewhere."""
 
 
 class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
@@ -197,6 +206,10 @@ def _lock(folder: Path, opened: int) -> None:
     for name in (LOGS, MISSIONS):
         if (folder / name).is_symlink():
             raise _taken(folder, f"has a link, {name}, in place of a folder")
+    for name in WRITTEN:
+        with contextlib.suppress(FileNotFoundError):
+            if not stat.S_ISREG(os.lstat(name, dir_fd=opened).st_mode):
+                raise _taken(folder, f"has something else in place of an ordinary file, {name}")
     identity = (found.st_dev, found.st_ino)
     if identity in _claimed:
         os.close(opened)

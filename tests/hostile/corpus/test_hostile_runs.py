@@ -79,6 +79,12 @@ def _through(place: str, count: int, folder: Path) -> None:
     _link(place, f"{OUTSIDE}/tree", folder)
 
 
+def _cut_with(change: Change, folder: Path) -> None:
+    """A run, cut off, of which something is not as it was left."""
+    _cut(3, folder)
+    change(folder)
+
+
 def _cut(count: int, folder: Path) -> None:
     """The run was cut off after so many events."""
     _write(folder, _lines(folder)[:count])
@@ -442,6 +448,29 @@ CASES = [
             ("parquet", ("dump", "-f", "parquet"), 100),
             ("logs", ("resume",), 3),
             ("missions", ("resume",), 3),
+        )
+    ),
+    *(
+        Case(
+            name=f"written-again-{file}-{name}",
+            argv=("resume",),
+            run="short",
+            mutate=partial(_cut_with, change),
+            says=(file,),
+        )
+        for file in (
+            "wall.jsonl",
+            "motion.jsonl",
+            "sensed.jsonl",
+            "colour.jsonl",
+            "depth.jsonl",
+            "run.json",
+            "summary.json",
+        )
+        for name, change in (
+            ("fifo", partial(_fifo, file)),
+            ("kept", partial(_link, file, f"{OUTSIDE}/tree/kept.txt")),
+            ("new", partial(_link, file, f"{OUTSIDE}/tree/new.txt")),
         )
     ),
     *(
