@@ -8,6 +8,7 @@ in order, however long one takes; the main one hears signals.
 from __future__ import annotations
 
 import asyncio
+import os
 import sys
 import threading
 from collections.abc import Callable
@@ -35,7 +36,9 @@ from executive.frontends.prompt.talk import Talk
 from executive.frontends.prompt.toolbar import STYLES, toolbar
 from intents.letters import without_sequences
 from intents.stopping import is_stay, is_stop
-from robot.errors import RobotError
+from robot.errors import ConfigError, RobotError
+from robot.files.exchangeable import check_way
+from robot.files.ordinary_files import open_to_append
 from robot.files.user_state import user_state_folder
 
 REFRESH_S = 0.2
@@ -350,8 +353,11 @@ def _history(path: Path | None) -> History:
     if path is None:
         return InMemoryHistory()
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.touch(mode=0o600)
-    except OSError:
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        check_way(path.parent, cure="")
+        with suppress(FileExistsError):
+            os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o600))
+        os.close(open_to_append(path))  # only an ordinary file of this user's, and through no link
+    except (OSError, ConfigError):
         return InMemoryHistory()
-    return _LastingHistory(str(path)) if path.is_file() else InMemoryHistory()
+    return _LastingHistory(str(path))
