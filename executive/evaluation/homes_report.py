@@ -37,6 +37,7 @@ class Failed(msgspec.Struct, frozen=True, kw_only=True):
     seed: int
     code: str
     cause: str
+    journal: str = ""
 
 
 class HomesReport(msgspec.Struct, frozen=True, kw_only=True):
@@ -81,7 +82,7 @@ def homes_report(
         whole=_line(WHOLE, kinds, ours, ()),
         failed=tuple(
             Failed(fault=case.origin, home=case.world, seed=record.seed, code=record.code,
-                   cause=record.cause)
+                   cause=record.cause, journal=record.journal)
             for case, record in with_recovery
             if not record.ok
         ),

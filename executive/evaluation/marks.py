@@ -61,6 +61,7 @@ class Attempt(msgspec.Struct, frozen=True, kw_only=True):
     person_s: float
     touched: tuple[str, ...]
     too_near: tuple[str, ...]
+    journal: str = ""
 
 
 class Marks(msgspec.Struct, frozen=True, kw_only=True):
@@ -121,11 +122,15 @@ def markdown(found: Marks) -> str:
     rows = [HEAD, ["---"] * len(HEAD), *(_cells(mark) for mark in (*found.kinds, found.whole))]
     lines = ["| " + " | ".join(cells) + " |" for cells in rows]
     failed = [
-        f"- {one.task} (seed {one.seed}): {one.code}, {one.cause}"
+        f"- {one.task} (seed {one.seed}): {one.code}, {one.cause}" + _where(one.journal)
         for one in found.attempts
         if not one.done
     ]
     return "\n".join([*lines, "", _caption(found), "", *failed]) + "\n"
+
+
+def _where(journal: str) -> str:
+    return f" ({journal})" if journal else ""
 
 
 def _cells(mark: Mark) -> list[str]:
@@ -177,5 +182,5 @@ def _attempt(case: Case, record: Record) -> Attempt:
     return Attempt(
         task=case.name, kind=case.kind, seed=record.seed, done=record.ok, code=record.code,
         cause=record.cause, took_s=record.took_s, person_s=case.person_s,
-        touched=record.touched, too_near=record.too_near,
+        touched=record.touched, too_near=record.too_near, journal=record.journal,
     )  # fmt: skip

@@ -11,6 +11,7 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
@@ -32,9 +33,16 @@ def _never() -> bool:
 
 
 def in_processes(
-    runs: Sequence[Run], reality: Reality, *, processes: int, stop: Stop = _never
+    runs: Sequence[Run],
+    reality: Reality,
+    *,
+    processes: int,
+    stop: Stop = _never,
+    keep: Path | None = None,
 ) -> Iterator[Record]:
     """Records as they come, from worker processes of this machine.
+
+    What a run wrote that went wrong is kept under `keep`.
 
     Ends early when `stop` says so: runs that are under way are lost with their workers. Workers die
     with this process, and whatever they left on the disk goes with it.
@@ -55,7 +63,9 @@ def in_processes(
                 initargs=(os.getpid(), scratch),
             )
         with _held_back():  # again: Python's resource tracker, begun above, let Ctrl-C through
-            waiting: set[Future[Record]] = {pool.submit(perform, run, reality) for run in runs}
+            waiting: set[Future[Record]] = {
+                pool.submit(perform, run, reality, keep) for run in runs
+            }
         try:
             while waiting and not stop():
                 over, waiting = wait(waiting, timeout=POLL_S, return_when=FIRST_COMPLETED)

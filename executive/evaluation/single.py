@@ -10,6 +10,7 @@ from typing import Any
 
 import msgspec
 
+from executive.evaluation import keeping
 from executive.evaluation.campaign import REFUSED, Meant, Run, Settings, meant
 from executive.evaluation.record import Record
 from executive.journal import journal
@@ -28,19 +29,35 @@ RESTART_S = 3.0
 """How long an executive that was killed is away before the next one goes on."""
 
 
-def perform(run: Run, reality: Reality) -> Record:
-    """Do a run to its end, whatever that is; never raises."""
+def perform(run: Run, reality: Reality, keep: Path | None = None) -> Record:
+    """Do a run to its end, whatever that is; never raises.
+
+    Where it went wrong, what it wrote is kept under `keep` (`executive.evaluation.keeping`).
+    """
     begin_s = time.perf_counter()
     try:
         with tempfile.TemporaryDirectory(prefix="humanoid-eval-") as folder:
-            record = _carried_out(run, reality, Path(folder))
-    except Exception as error:  # a run that breaks is a result as well
-        text = traceback.format_exception_only(error)[-1].strip()
-        record = Record(
-            key=run.key, digest=run.digest, case=run.case.name, seed=run.seed,
-            recovery=run.recovery, ok=False, code="exception", cause=text, unsafe=True,
-        )  # fmt: skip
+            record = _tried(run, reality, Path(folder))
+            if keep is not None:
+                record = keeping.keep(run, record, Path(folder), keep)
+    except OSError as error:  # there is no room to run in
+        record = _broken(run, error)
     return msgspec.structs.replace(record, wall_s=round(time.perf_counter() - begin_s, 2))
+
+
+def _tried(run: Run, reality: Reality, folder: Path) -> Record:
+    try:
+        return _carried_out(run, reality, folder)
+    except Exception as error:  # a run that breaks is a result as well
+        return _broken(run, error)
+
+
+def _broken(run: Run, error: Exception) -> Record:
+    return Record(
+        key=run.key, digest=run.digest, case=run.case.name, seed=run.seed, recovery=run.recovery,
+        ok=False, code="exception", cause=traceback.format_exception_only(error)[-1].strip(),
+        unsafe=True,
+    )  # fmt: skip
 
 
 def _carried_out(run: Run, reality: Reality, folder: Path) -> Record:
@@ -81,6 +98,7 @@ class _Trial:
                 kill=self._kill,
             ) as session,
         ):
+            session.begin(run.case.mission)  # so that what is kept of it says what it was
             runtime.plant.watch()
             session.journal.listen(lambda event: self._note(event.event, event.data))
             session.on_tick(lambda: self._help(session))

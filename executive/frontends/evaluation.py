@@ -11,7 +11,16 @@ import msgspec
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 import executive
-from executive.evaluation import campaign, elsewhere, exam, homes_report, marks, pool, report
+from executive.evaluation import (
+    campaign,
+    elsewhere,
+    exam,
+    homes_report,
+    keeping,
+    marks,
+    pool,
+    report,
+)
 from executive.evaluation.campaign import Case, Run
 from executive.evaluation.record import FILE, Record, Results, fingerprint, folder_to_resume
 from executive.frontends import evaluation_asked
@@ -102,6 +111,8 @@ def _say(found: Found, folder: Path, options: Eval) -> None:
         return
     if found.runs:
         show(found)
+    if (folder / keeping.FOLDER).is_dir():
+        say(f"what went wrong: humanoid why {folder / keeping.FOLDER}/NAME (dump and film, too)")
     if not found.left:
         say(f"results: {folder / FILE}; more seeds with: --resume {folder}")
 
@@ -247,7 +258,13 @@ def _go_through(
     work = (
         pool.on_ray(runs, there, stop=lambda: ending.asked)
         if options.ray
-        else pool.in_processes(runs, there, processes=options.processes, stop=lambda: ending.asked)
+        else pool.in_processes(
+            runs,
+            there,
+            processes=options.processes,
+            stop=lambda: ending.asked,
+            keep=results.path.parent.absolute() / keeping.FOLDER,
+        )
     )
     done = len(results.records)
     columns = (
