@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from executive.skills.encounters import Encounters
 from executive.skills.holding import Holdings
 from robot.link import BodyLink
 from robot.model.description import RobotDescription
@@ -33,6 +34,7 @@ class SkillContext:
         say: where spoken words go.
         speed_limit: the fastest walk allowed now [m/s]; it changes while a skill walks.
         holdings: what the hands hold; outlives a skill, so that place knows what pick took.
+        encounters: who was asked to step aside, so that nobody is asked again and again.
         searched_s: when a search for an object, by id, came to its end without it.
     """
 
@@ -43,4 +45,5 @@ class SkillContext:
     say: Callable[[str], None] = _silent
     speed_limit: Callable[[], float] = _unlimited
     holdings: Holdings = field(default_factory=Holdings)
+    encounters: Encounters = field(default_factory=Encounters)
     searched_s: dict[str, float] = field(default_factory=dict[str, float])

@@ -10,7 +10,6 @@ from executive.skills.motions.gaze import look_at
 from executive.skills.motions.script import Script
 from robot.messages import PersonInfo
 
-EXCUSE = "Excuse me."
 REACT_S = 2.0
 """Who has not stirred after that either did not hear it or has nowhere to go."""
 STILL_S = 0.6
@@ -24,14 +23,32 @@ FACE_M = 1.2
 """How high somebody is looked at, who may be anything from a child to tall."""
 
 
+def call_ahead(body: Body, person: PersonInfo) -> None:
+    """Ask somebody beside the way ahead to make room, once an encounter."""
+    _say(body, body.context.encounters.open(person.id, body.now_s))
+
+
 def ask_aside(body: Body, person: PersonInfo) -> Script[None]:
-    """Ask somebody to step aside; step back if they do not, and ask again."""
+    """Ask somebody to step aside; step back if they do not, and ask again.
+
+    Not in the same words: who was asked from afar is asked more plainly, and who has been asked in
+    every way is waited for.
+    """
     look_at(body, (*body.X_WPerson(person.id).p[:2], FACE_M))
-    body.context.say(EXCUSE)
+    _plead(body, person)
     if not (yield from _stirs(body, person)):
         yield from make_way(body, person)
-        body.context.say(EXCUSE)
+        _plead(body, person)
         yield from _stirs(body, person)
+
+
+def _plead(body: Body, person: PersonInfo) -> None:
+    _say(body, body.context.encounters.plead(person.id, body.now_s))
+
+
+def _say(body: Body, words: str) -> None:
+    if words:
+        body.context.say(words)
 
 
 def _stirs(body: Body, person: PersonInfo) -> Script[bool]:

@@ -9,7 +9,7 @@ import math
 
 import msgspec
 
-from executive.skills.motions.asking_aside import EXCUSE, ask_aside
+from executive.skills.motions.asking_aside import ask_aside, call_ahead
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.committed import Committed
 from executive.skills.motions.final_steps import is_at_stance, miss, step_to
@@ -247,7 +247,6 @@ class _Watch:
         self._anchor = body.X_WS
         self._moved_s = body.now_s
         self._blocked_since_s: float | None = None
-        self._called: set[str] = set()
 
     def look_ahead(self, follower: Follower) -> None:
         """Turn the head now and then: along the path, or to who may still be beside it."""
@@ -260,12 +259,11 @@ class _Watch:
             self._looked_s = self.body.now_s
 
     def call_ahead(self, follower: Follower) -> None:
-        """Ask who stands too near to the way ahead to make room, once, while walking on."""
+        """Ask who stands too near to the way ahead to make room, while walking on."""
         for point in follower.ahead(CALL_AHEAD_M, step_m=CALL_EVERY_M):
             person = somebody_near(self.body, point)
-            if person is not None and person.id not in self._called:
-                self._called.add(person.id)
-                self.body.context.say(EXCUSE)
+            if person is not None:
+                call_ahead(self.body, person)
 
     def check_progress(self, remaining_m: float) -> None:
         """Give up when the body has neither moved nor turned for long, or walks in circles."""

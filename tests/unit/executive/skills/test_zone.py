@@ -4,12 +4,14 @@ import math
 
 import pytest
 
+from executive.skills.encounters import OVER_S, PLEAS, Encounters
 from executive.skills.motions.personal_space import PATIENCE_S, ZONE_M
 from executive.skills.navigate import FloorPose, NavigateParams, Step
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
 from robot.messages import Grip, MoveArm, MoveHand, Obstacle, Shape, Walk, WalkTo
 from robot.se3 import SE3
+from sim.people import wish_in
 from tests.fakes.stage import Stage
 
 AWAY = SE3((9.0, 9.0, 0.0))
@@ -62,7 +64,29 @@ def test_who_has_no_room_to_leave_is_given_some(stage):
     report = stage.run(THERE)
     assert report.status == "succeeded", report
     assert "stepping back from Ann" in stage.phases
-    assert stage.said == ["Excuse me."] * 3  # from afar, before her, and when there is room
+    assert stage.said == list(PLEAS)  # from afar, before her, and when there is room
+
+
+def test_who_will_not_leave_is_asked_in_each_way_once(stage):
+    """However often it is tried anew; how it ends is said by the failure, not by the next plea."""
+    comes(stage, "walking", lambda: SE3((2.81, -2.25, 0.0)), for_s=math.inf)
+    assert stage.run(THERE).failure.code == "path_blocked"
+    assert stage.said == list(PLEAS)
+
+
+def test_who_comes_back_after_a_while_is_met_anew():
+    met = Encounters()
+    assert [met.open("ann", 0.0), met.open("ann", 1.0), met.plead("ann", 2.0)] == [
+        PLEAS[0], "", PLEAS[1],
+    ]  # fmt: skip
+    assert met.open("ben", 2.0) == PLEAS[0], "nobody is taken for somebody else"
+    met.open("ann", 2.0 + OVER_S)
+    assert met.plead("ann", 2.0 + OVER_S) == PLEAS[2], "she has been in the way all the time"
+    assert met.open("ann", 3.0 + 2.0 * OVER_S) == PLEAS[0]
+
+
+def test_every_plea_asks_for_room():
+    assert {wish_in(words) for words in PLEAS} == {"make room"}
 
 
 def test_who_stands_by_the_way_is_asked_from_afar_and_the_walk_goes_on(stage):
