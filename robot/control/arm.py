@@ -18,6 +18,8 @@ from robot.model.body import BodyModel, as_index
 from robot.se3 import SE3, Array, rotation_vector
 
 DAMPING = 0.03  # of the least squares: near a singularity the joints stay slow
+END_ZONE_RAD = 0.3
+"""Before a joint's end: there it is moved away from it, where that leaves the hand alone."""
 
 
 class Arm:
@@ -176,11 +178,7 @@ class Arm:
         twist[:3] += velocity
         jac = self._jac
         mujoco.mj_jacSite(model, data, jac[:3], jac[3:], site)
-        arm = jac[:, self.dofs]
-        damped = arm @ arm.T + DAMPING**2 * np.eye(6)
-        rate = arm.T @ np.linalg.solve(damped, twist)
-        if line.near_rad is not None:
-            rate += self._elbow_rate(arm, damped, line.near_rad)
+        rate = self._rate(jac[:, self.dofs], twist, line.near_rad, dt_s=dt_s)
         peak, fastest = float(np.abs(rate).max()), self.limits.line_speed_rad_s
         if peak > fastest:
             rate *= fastest / peak
@@ -189,6 +187,33 @@ class Arm:
         q = np.minimum(np.maximum(q, self.lower), self.upper)
         self.q, self.qd = q, rate
         self.qdd[:] = 0.0
+
+    def _rate(self, jac: Array, twist: Array, near_rad: Array | None, *, dt_s: float) -> Array:
+        """Joint rates that move the hand by a twist; none goes beyond its end.
+
+        A joint that would is left where it is, and the others are asked again without it: else they
+        go on as if it moved, and the hand leaves its line.
+        """
+        moving = np.ones(len(self.q), dtype=bool)
+        while True:
+            part = np.where(moving, jac, 0.0)
+            damped = part @ part.T + DAMPING**2 * np.eye(6)
+            rate = part.T @ np.linalg.solve(damped, twist)
+            near = self._off_its_ends() if near_rad is None else near_rad
+            rate += np.where(moving, self._elbow_rate(part, damped, near), 0.0)
+            q = self.q + rate * dt_s
+            ended = moving & ((q < self.lower) & (rate < 0.0) | (q > self.upper) & (rate > 0.0))
+            if not ended.any():
+                return rate
+            moving &= ~ended
+
+    def _off_its_ends(self) -> Array:
+        """The joints as they are, those near their ends a little off them; shape (joints,).
+
+        The hand is left alone; the elbow goes where the joints have room for the rest of the line.
+        """
+        low, high = self.lower + END_ZONE_RAD, self.upper - END_ZONE_RAD
+        return np.minimum(np.maximum(self.q, low), high)
 
     def _elbow_rate(self, jac: Array, damped: Array, near_rad: Array) -> Array:
         """Joint rates, shape (joints,), to the joints near, of what leaves the hand alone."""

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robot.control.arm import Arm, Line
+from robot.control.arm import END_ZONE_RAD, Arm, Line
 from robot.messages import HoldArm, MoveArm, MoveHand
 from robot.se3 import SE3, rotation_vector
 
@@ -296,3 +296,47 @@ def test_an_arm_that_is_told_to_hold_comes_to_rest_without_a_jerk(bench, kind, b
     assert not arm.qd.any()
     bench.run(0.2)
     assert (arm.q == q).all()
+
+
+# --- where joints end ---------------------------------------------------------------------------
+
+AT_ITS_ENDS = (0.656, 2.099, 0.507, -1.695, 1.964, -0.251, 0.641)
+"""A left arm before a bottle that stands deep on a counter; moving in, two of its joints end."""
+
+
+def moved_in(body, dynamics, posture_rad, ahead_m):
+    """How far the hand leaves its line, and how far its axis turns [rad], while it moves ahead."""
+    bench = Bench(body, dynamics, "left")
+    bench.q[bench.arm.motors] = posture_rad
+    bench.arm = Arm(body, "left", bench.q)
+    bench.refresh()
+    start = bench.X_NG
+    goal = start @ SE3((ahead_m, 0.0, 0.0))
+    bench.arm.reach(MoveHand(id=7, stamp_s=0.0, side="left", X_NG=goal, speed_m_s=0.1), start, 0.0)
+    most_m = most_rad = 0.0
+    while bench.arm.activity.status == "running":
+        bench.run(DT_S)
+        most_m = max(most_m, off_line_m(bench.X_NG.p, start.p, goal.p))
+        turned = bench.X_NG.rotation() @ start.rotation().T
+        most_rad = max(most_rad, float(np.linalg.norm(rotation_vector(turned))))
+    return bench, most_m, most_rad
+
+
+def test_a_joint_at_its_end_does_not_take_the_hand_off_its_line(body, dynamics):
+    """It knocked the bottle over: the other joints moved on as if that one did."""
+    bench, most_m, most_rad = moved_in(body, dynamics, AT_ITS_ENDS, 0.086)
+    arm = bench.arm
+    ended = np.minimum(arm.q - arm.lower, arm.upper - arm.q) < 0.02
+    assert ended.any(), "else this shows nothing"
+    assert most_m < 0.01, "it was 5 cm"
+    assert most_rad < 0.02
+
+
+def test_what_has_room_is_left_where_it_is(bench):
+    """Away from their ends no joint is moved but for the hand."""
+    arm = bench.arm
+    assert (arm.q > arm.lower + END_ZONE_RAD).all() and (arm.q < arm.upper - END_ZONE_RAD).all()
+    bench.dynamics.kinematics()
+    jac = np.linalg.qr(np.random.default_rng(0).normal(size=(7, 6)))[0].T
+    rate = arm._rate(jac, np.zeros(6), None, dt_s=DT_S)
+    assert np.allclose(rate, 0.0)
