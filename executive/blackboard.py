@@ -102,11 +102,15 @@ TAKEN_FROM = Key[dict[str, SE3]](
     "taken_from", dict[str, SE3], writer="sense",
     meaning="id of a thing to where it stood before a hand took it last: X_WO", initial={},
 )  # fmt: skip
+HEARD = Key[dict[str, str]](
+    "heard", dict[str, str], writer="sense", initial={},
+    meaning="id of a person to the last words that they said to the robot",
+)  # fmt: skip
 SAID = Key[str]("said", str, writer="voice", meaning="the last words of the robot", initial="")
 
 KEYS: tuple[Key[Any], ...] = (
     NOW, BODY, WORLD, MAP, HOME, HEALTH, HELD, GIVEN, TAKEN_FROM, STOP, PAUSE, PAUSED, ABORT,
-    GOAL, FAILURE, RECOVERIES, PHASE, SAID, HELP, SPEED_LIMIT, RESTLESS,
+    GOAL, FAILURE, RECOVERIES, PHASE, HEARD, SAID, HELP, SPEED_LIMIT, RESTLESS,
 )  # fmt: skip
 """The whole table."""
 

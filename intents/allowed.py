@@ -20,7 +20,7 @@ MAX_WALK_M, MAX_TURN_RAD, MAX_TIME_S = 50.0, 20 * pi, 86400.0
 MAX_SPOKEN = 300
 MOST_LISTED = 40
 """Names that are told where one is not known."""
-DIRECTIONS = ("left", "right", "up", "down", "ahead", "behind", "around")
+DIRECTIONS = g.DIRECTIONS
 GESTURES = (
     "wave", "point", "nod", "shake_head", "bow", "thumbs_up", "clap", "shrug", "dance",
     "shake_hands", "high_five", "cross_arms", "raise_arm", "raise_left_arm", "raise_right_arm",
@@ -191,7 +191,7 @@ def _fault_of_number(slot: str, value: object) -> str:
 def _strings_of(kind: str, slot: str, names: Names) -> frozenset[str] | tuple[str, ...] | None:
     """What a slot may say; None where it holds words to be spoken."""
     if slot == "what":
-        return None if kind == "Say" else ANSWERS if kind == "Answer" else names.devices
+        return None if kind in ("Say", "Ask") else ANSWERS if kind == "Answer" else names.devices
     if slot in ("kind", "property", "mode", "side", "topic"):
         return {"kind": GESTURES, "property": PROPERTIES}.get(slot, _CLOSED)
     if slot == "at":

@@ -11,7 +11,7 @@ from intents.english.faithfulness import numbers, strings
 from intents.english.words import lexicon
 from intents.english.words.lexer import singular, tokenize
 from intents.english.words.measures import UNIT_WORDS, measure, number
-from intents.goals import Answer, Count, Goal, GoTo, If, Report, Say, Tell, each
+from intents.goals import Answer, Ask, Count, Goal, GoTo, If, Report, Say, Tell, each
 from intents.spans import unkept_span
 
 _AMOUNTS = r"more|less|fewer|further|farther|longer|greater"
@@ -59,7 +59,7 @@ _OF_ONESELF = re.compile(
 """I mustn't carry anything *heavier than a book*: what who speaks cannot do."""
 _LINK = re.compile(r"[\s,;:–—-]*\b(?:but|and|though|only)?\s*$", re.IGNORECASE)
 """What leads on to a bound."""
-_TELLING = (Answer, Count, If, Report, Say, Tell)
+_TELLING = (Answer, Ask, Count, If, Report, Say, Tell)
 _SAME = 1e-3
 _LINKS = lexicon.words(
     "whichever whoever whatever one is are of them these those the a an that looks seems comes was"

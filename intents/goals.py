@@ -238,6 +238,17 @@ class Say(_Goal, frozen=True, kw_only=True):
     to: Person | None = None
 
 
+class Ask(_Goal, frozen=True, kw_only=True):
+    """Ask a person something and wait for the answer; ``what`` holds the words after "ask".
+
+    With ``to`` the answer is then told to somebody.
+    """
+
+    person: Person
+    what: str
+    to: Person | None = None
+
+
 class Answer(_Goal, frozen=True, kw_only=True):
     """Answer a question or a quiz of a person."""
 
@@ -264,6 +275,10 @@ class Tell(_OfSomething, frozen=True, kw_only=True):
     def of(self) -> ObjectQuery | Person:
         """Whose property it is."""
         return self.object or self.person or ObjectQuery()
+
+
+DIRECTIONS = ("left", "right", "up", "down", "ahead", "behind", "around")
+"""Ways to look, in `LookAt.place`: they are no places."""
 
 
 class LookAt(_OfSomething, frozen=True, kw_only=True):
@@ -410,7 +425,8 @@ class If(_Goal, frozen=True, kw_only=True):
 
 
 Goal = (
-    GoTo | Find | Pick | Place | Bring | Give | Follow | Guide | Meet | Greet | Say | Answer
+    GoTo | Find | Pick | Place | Bring | Give | Follow | Guide | Meet | Greet | Say | Ask
+    | Answer
     | Count | Tell | LookAt | Open | Close | Switch | Balance | Gesture | Wait | Stop | Pause
     | Resume | Cancel | Report | Repeat | ForEach | If
 )  # fmt: skip

@@ -35,6 +35,7 @@ from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
     Answer,
+    Ask,
     Balance,
     Bring,
     Count,
@@ -279,7 +280,7 @@ def _at_a_pace(text: Text, goals: list[Goal]) -> list[str]:
     """What is remarked on how fast something is to be done: the robot moves at its own pace."""
     every = list(each(goals))
     moves = any(isinstance(goal, _MOVING) for goal in every)
-    speaks = any(isinstance(goal, Say | Answer) for goal in every)
+    speaks = any(isinstance(goal, Say | Ask | Answer) for goal in every)
     told = text.pace and (moves or any(isinstance(goal, Greet) for goal in every)) and not speaks
     return [f"I move at my own pace: “{text.pace}” changes nothing"] if told else []
 
@@ -304,7 +305,7 @@ def _must_choose(text: Text, goals: list[Goal]) -> None:
         Unclear: That is so.
     """
     either = "or" in text.words[1:] and len(goals) > 1
-    decided = any(isinstance(goal, If | Say | Answer | Tell) for goal in each(goals))
+    decided = any(isinstance(goal, If | Say | Ask | Answer | Tell) for goal in each(goals))
     if either and not decided:
         raise Unclear("The one or the other: which shall it be?")
 

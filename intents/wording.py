@@ -115,6 +115,9 @@ def _goal(goal: Goal) -> str:  # noqa: PLR0912 - one line a kind of goal
             return f"greet {who(goal.person)}"
         case g.Say():
             return f"say “{goal.what}”" + (f" to {who(goal.to)}" if goal.to else "")
+        case g.Ask():
+            told = f" and tell {who(goal.to)} the answer" if goal.to else ""
+            return f"ask {who(goal.person)} “{goal.what}”{told}"
         case g.Answer():
             return f"answer the {goal.what}" + (f" of {who(goal.person)}" if goal.person else "")
         case g.Count():

@@ -76,6 +76,7 @@ CATALOGUE: dict[str, FailureKind] = {
         "the object lies on the floor, lower than a hand reaches", "put it back onto a table"
     ),
     "not_taken": FailureKind("nobody took what was held out", "pull it out of the hand"),
+    "no_answer": FailureKind("somebody who was asked said nothing", "ask them yourself"),
     "person_near": FailureKind("somebody stands too near to go on", "step back from the robot"),
     "person_not_seen": FailureKind("the person is not where they were", "come before the camera"),
     "not_holding": FailureKind("there is nothing in the hand", "pick something up first"),

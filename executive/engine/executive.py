@@ -110,7 +110,9 @@ class Executive:
             speed_m_s=context.description.walking.max_forward_m_s,
             estop=self.estop,
         )
-        sense = Sense(self.stage, context.link, monitor, holdings=context.holdings)
+        sense = Sense(
+            self.stage, context.link, monitor, holdings=context.holdings, hearing=context.hearing
+        )
         self.tree = Tree(self.stage, sense)
         self._book = JobBook(self.tree.jobs, jobs_before=jobs_before)
         self._requests: deque[Request] = deque()

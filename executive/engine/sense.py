@@ -12,6 +12,7 @@ from executive.blackboard import (
     BODY,
     GIVEN,
     HEALTH,
+    HEARD,
     HELD,
     HOME,
     MAP,
@@ -24,6 +25,7 @@ from executive.engine.handled import Handled
 from executive.engine.health_monitor import HealthMonitor
 from executive.engine.reminder import Reminder
 from executive.health import Finding, Health, Level
+from executive.skills.hearing import Hearing
 from executive.skills.holding import Held, Holdings
 from robot.link import BodyLink
 from robot.messages import BodyState, Side
@@ -40,7 +42,13 @@ class Sense(Behaviour):
     """Reads the link once a tick; always RUNNING."""
 
     def __init__(
-        self, stage: Stage, link: BodyLink, monitor: HealthMonitor, *, holdings: Holdings
+        self,
+        stage: Stage,
+        link: BodyLink,
+        monitor: HealthMonitor,
+        *,
+        holdings: Holdings,
+        hearing: Hearing,
     ) -> None:
         """Become the writer of everything that is sensed."""
         super().__init__("sense")
@@ -48,6 +56,7 @@ class Sense(Behaviour):
         self._link = link
         self._monitor = monitor
         self._holdings = holdings
+        self._hearing = hearing
         self._handled = Handled(holdings)
         self._reminder = Reminder(link, holdings)
         self._board = stage.board.claim("sense")
@@ -117,11 +126,13 @@ class Sense(Behaviour):
     def _hear(self) -> None:
         """Journal what people say; it answers the open question if it can be an answer to it."""
         for heard in self._link.heard():
+            self._hearing.note(heard)
             simulated = heard.source == "oracle"
             self._stage.record("heard", who=heard.person_id, text=heard.text, simulated=simulated)
             desk = self._stage.help
             if desk.asker is not None and desk.answer is None and heard.text in ANSWERS:
                 desk.answer = heard.text
+        self._board.set(HEARD, self._hearing.newest())
 
     def _journal(self, health: Health) -> None:
         """Journal what has come up or gone away since the last tick."""

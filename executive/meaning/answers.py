@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 
 from executive.behaviours.conditions import Predicate
 from executive.behaviours.run_skill import Bound
-from executive.blackboard import GIVEN, HELD, WORLD, Blackboard
+from executive.blackboard import GIVEN, HEARD, HELD, WORLD, Blackboard
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.robot_state import state_of
 from executive.skills.motions.likelihood import surfaces_of
@@ -18,7 +18,7 @@ from intents.english.trouble import listing
 from intents.english.words.lexer import singular
 from intents.goals import ReportTopic
 from intents.numbers import Noun
-from robot.messages import ObjectInfo, Place, Track, WorldMap
+from robot.messages import ObjectInfo, PersonInfo, Place, Track, WorldMap
 
 
 def is_held(ids: frozenset[str], *, least: int = 1) -> Predicate:
@@ -140,6 +140,19 @@ def whereabouts(info: ObjectInfo, knowledge: Knowledge) -> Bound:
         be = "are" if singular(last) != last else "is"
         text = f"{name} {be}{''.join(places)}." if places else f"I see {info.full_name}."
         return SayParams(text=text)
+
+    return words
+
+
+def answered(person: PersonInfo, what: str) -> Bound:
+    """Says what somebody has said to whom a question was put: "I asked Ines if ...: Yes."."""
+
+    def words(board: Blackboard) -> SayParams:
+        said = board.read(HEARD).get(person.id, "")
+        asked = f"I asked {person.name} {what}"
+        if not said:  # another executive asked, and died
+            return SayParams(text=f"{asked}, and do not know the answer.")
+        return SayParams(text=f"{asked}. The answer is: {said}")
 
     return words
 

@@ -306,6 +306,7 @@ HANDLERS: dict[type[Any], Handler] = {
     goals.Follow: moving.follow,
     goals.Gesture: people.gesture,
     goals.Greet: people.greet,
+    goals.Ask: people.ask,
     goals.Meet: people.meet,
     goals.Say: people.say,
     goals.Count: seeing.count,

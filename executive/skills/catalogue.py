@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from executive.skills.ability import Refused
+from executive.skills.ask import Ask
 from executive.skills.balance import Balance
 from executive.skills.context import SkillContext
 from executive.skills.follow import Follow
@@ -37,6 +38,7 @@ SKILLS: tuple[type[ScriptedSkill[Any]], ...] = (
     Look,
     Balance,
     Say,
+    Ask,
     Wait,
     Stop,
 )

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from executive.skills.encounters import Encounters
+from executive.skills.hearing import Hearing
 from executive.skills.holding import Holdings
 from robot.link import BodyLink
 from robot.model.description import RobotDescription
@@ -35,6 +36,7 @@ class SkillContext:
         speed_limit: the fastest walk allowed now [m/s]; it changes while a skill walks.
         holdings: what the hands hold; outlives a skill, so that place knows what pick took.
         encounters: who was asked to step aside, so that nobody is asked again and again.
+        hearing: what people have said to the robot.
         searched_s: when a search for an object, by id, came to its end without it.
     """
 
@@ -46,4 +48,5 @@ class SkillContext:
     speed_limit: Callable[[], float] = _unlimited
     holdings: Holdings = field(default_factory=Holdings)
     encounters: Encounters = field(default_factory=Encounters)
+    hearing: Hearing = field(default_factory=Hearing)
     searched_s: dict[str, float] = field(default_factory=dict[str, float])

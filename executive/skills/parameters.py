@@ -10,6 +10,8 @@ import math
 import msgspec
 
 MAX_DURATION_S = 600.0
+MAX_TEXT = 1000
+"""Characters of a text that is said aloud."""
 
 
 class SkillParams(msgspec.Struct, frozen=True, kw_only=True, tag=True, forbid_unknown_fields=True):
@@ -39,6 +41,16 @@ def finite(*values: float) -> None:
     """
     if not all(math.isfinite(value) for value in values):
         raise ValueError(f"not a finite number among {values}")
+
+
+def sayable(text: str) -> None:
+    """Check that a text is short enough to be said.
+
+    Raises:
+        ValueError: it is longer than `MAX_TEXT`.
+    """
+    if len(text) > MAX_TEXT:
+        raise ValueError(f"text of {len(text)} characters: at most {MAX_TEXT}")
 
 
 def within(name: str, value: float, limit: float) -> None:

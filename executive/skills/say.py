@@ -5,10 +5,9 @@ from __future__ import annotations
 from executive.skills.context import SkillContext
 from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.script import Script
-from executive.skills.parameters import SkillParams
+from executive.skills.parameters import SkillParams, sayable
 from executive.skills.scripted import ScriptedSkill
 
-MAX_TEXT = 1000
 SPEAK_S = 0.05
 """Handing a text to the voice, which then speaks while the robot goes on."""
 
@@ -20,8 +19,7 @@ class SayParams(SkillParams, frozen=True, kw_only=True):
 
     def __post_init__(self) -> None:
         """Check the length."""
-        if len(self.text) > MAX_TEXT:
-            raise ValueError(f"text of {len(self.text)} characters: at most {MAX_TEXT}")
+        sayable(self.text)
 
 
 class Say(ScriptedSkill[SayParams]):

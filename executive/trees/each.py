@@ -15,7 +15,8 @@ from py_trees.decorators import FailureIsSuccess, OneShot
 
 from executive.behaviours.stage import Stage
 from executive.blackboard import Blackboard
-from executive.skills.say import MAX_TEXT, SayParams
+from executive.skills.parameters import MAX_TEXT
+from executive.skills.say import SayParams
 from executive.trees.idioms import once
 from executive.trees.parts import Each, Errand, below
 from executive.trees.recovery import resilient

@@ -89,6 +89,7 @@ RULES: dict[str, Rule] = {
     "place_not_seen": _first(wait=1, ask=1),
     "on_the_floor": _first(ask=1),
     "not_taken": _first(ask=1),
+    "no_answer": NONE,  # they were asked twice
     "person_near": _first(wait=2, step_back=1, ask=1),
     "person_not_seen": _first(wait=1, ask=1),
     "not_holding": _first(fetch_again=1),

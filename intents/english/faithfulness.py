@@ -27,6 +27,7 @@ from intents.english.words.text import Text
 from intents.english.words.verbs import base_form, participle_base, verbs_at
 from intents.goals import (
     Answer,
+    Ask,
     Balance,
     Bring,
     Close,
@@ -85,7 +86,7 @@ _OTHERS = lexicon.words(
 _PEOPLE = lexicon.PERSON_NOUNS | frozenset(lexicon.GENDERS)
 _WEIGHING = lexicon.words("weigh weighs weight weights heavy large big little small slender thick")
 _TAKEN_BACK = lexicon.words("no sorry wait actually rather")
-_SPEAKS = (Say, Answer, Report)
+_SPEAKS = (Say, Ask, Answer, Report)
 _HANDED = (Gesture, Open, Close, Balance, LookAt)
 
 
@@ -205,6 +206,7 @@ def _carried(text: Text, at: int, told: _Told) -> tuple[int, bool]:
     if match and word not in _OTHERS | _PEOPLE:
         known = told.name(*(n.name for n in match.names)) or told.answers
         known = known or _whole_of(text, at, match.end, told) or _contents(text, match.end, told)
+        known = known or (told.speaks and told.words.issuperset(text.words[at : match.end]))
         if match.of("person") and lexicon.LEAVING.intersection(
             text.words[match.end : match.end + 2]
         ):

@@ -3,6 +3,9 @@
 from msgspec.structs import replace
 
 from intents.goals import (
+    DIRECTIONS,
+    OPERATOR,
+    Ask,
     Balance,
     Bring,
     Count,
@@ -35,6 +38,8 @@ def joined(before: list[Goal], goal: Goal, *, first: str) -> Goal:
     ``first`` is the first word of its clause.
     """
     if before:
+        if _answer_is_brought(before, goal):
+            before.pop()  # telling me comes back to me
         goal = _told_there(before[-1], goal)
         if _already_sought(before[-1], goal):
             before.pop()
@@ -111,10 +116,15 @@ def same_object(wanted: Goal, found: list[Goal]) -> bool:
 
 
 def sought_there(wanted: Goal, found: list[Goal]) -> Find | None:
-    """I cannot find Ada, *have a look in the hall*: she is to be looked for there."""
+    """I cannot find Ada, *have a look in the hall*: she is to be looked for there.
+
+    *Have a look around*: that is what looking for her is.
+    """
     goal = found[0] if len(found) == 1 else None
     if not isinstance(wanted, Find) or not isinstance(goal, GoTo | LookAt) or not goal.place:
         return None
+    if isinstance(goal, LookAt) and goal.place in DIRECTIONS:
+        return wanted if goal == LookAt(place="around") else None
     if replace(goal, place=None) != type(goal)():
         return None
     if wanted.person is not None and not wanted.person.at:
@@ -237,7 +247,7 @@ def _told_there(before: Goal, goal: Goal) -> Goal:
     """Look at the table and count the cups: those on the table."""
     if not isinstance(before, GoTo | LookAt) or not isinstance(goal, Tell | Count):
         return goal
-    if before.place is None:
+    if before.place is None or (isinstance(before, LookAt) and before.place in DIRECTIONS):
         return goal
     if goal.object and not (goal.object.at or goal.object.relation or goal.object.held):
         return replace(goal, object=replace(goal.object, at=before.place))
@@ -246,12 +256,19 @@ def _told_there(before: Goal, goal: Goal) -> Goal:
     return goal
 
 
+def _answer_is_brought(before: list[Goal], goal: Goal) -> bool:
+    """Ask Ines if she is well, then come back and tell me what she says."""
+    to_me = isinstance(goal, Ask) and goal.to == Person(who=OPERATOR)
+    asked = before[-2:-1] and isinstance(before[-2], Ask)
+    return bool(to_me and asked and before[-1] == GoTo(place=OPERATOR))
+
+
 def _already_sought(before: Goal, goal: Goal) -> bool:
     """Look for the tallest cup, then name it: telling finds it."""
     if isinstance(before, LookAt) and isinstance(goal, Tell | Count) and before.place:
         told_of = goal.object or goal.person
         return told_of is not None and told_of.at == before.place
-    if isinstance(goal, Tell | Count) and isinstance(before, Tell | Count) and goal.to:
+    if isinstance(goal, Ask | Tell | Count) and isinstance(before, Ask | Tell | Count) and goal.to:
         return replace(goal, to=None) == replace(before, to=None)
     if not (isinstance(before, Find | Tell) and isinstance(goal, Tell)):
         return False

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import get_args
 
+from executive.meaning import answers, questions
 from executive.meaning.handlers.moving import go_to_person
 from executive.meaning.identify import Scene, cannot
+from executive.skills.ask import AskParams
 from executive.skills.gesture import GestureKind, GestureParams
 from executive.skills.look import LookParams
 from executive.skills.say import SayParams
@@ -66,6 +68,25 @@ def to_their_face(person: goals.Person | None, scene: Scene) -> tuple[Part, ...]
     found = scene.person(person)
     look = Errand(name=f"look at {found.name}", params=LookParams(person_id=found.id))
     return (go_to_person(person, scene), look)
+
+
+def ask(goal: goals.Ask, scene: Scene) -> Part:
+    """Go to somebody, ask them, wait for the answer; and tell it to somebody else if to whom."""
+    person = scene.person(goal.person)
+    question = Errand(
+        name=f"ask {person.name}",
+        params=AskParams(text=questions.spoken(goal.what), person_id=person.id),
+    )
+    before = (
+        go_to_person(goal.person, scene),
+        Errand(name=f"look at {person.name}", params=LookParams(person_id=person.id)),
+    )
+    if goal.to is None:
+        return Series(name=f"ask {person.name}", parts=(*before, question))
+    back = to_their_face(goal.to, scene) or (go_to_person(goal.to, scene),)
+    tell = Errand(name="say the answer", params=answers.answered(person, goal.what))
+    parts = (*before, question, *back, tell)
+    return Series(name=f"ask {person.name} and tell the answer", parts=parts)
 
 
 def greet(goal: goals.Greet, scene: Scene) -> Part:

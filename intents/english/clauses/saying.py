@@ -4,6 +4,7 @@ from copy import copy
 
 from msgspec.structs import replace
 
+from intents.english.clauses.asking import answer_told, asking
 from intents.english.clauses.compounds import condition
 from intents.english.clauses.conditions import IF
 from intents.english.clauses.markers import marker_end
@@ -287,9 +288,10 @@ def _tell(text: Text, at: int, listener: Person | None, scope: Scope) -> Found:
     at += first is not None and text.word(at) == COMMA
     at = text.phrase_end(_ABOUT, at) or at
     at = text.phrase_end(_ABOUT, at) or at
-    result = text.phrase_end(_RESULT, at)
-    if result and not (ends_clause(text, result) or text.word(result) == "to"):
-        result = None  # how many *cups are on it*
+    relayed = answer_told(text, at, scope, to)
+    if relayed is not None:
+        return relayed
+    result = _result_end(text, at)
     found = result or (at if ends_clause(text, at) else None)
     heard_by = _listener(text, found + 1, scope) if found and text.word(found) == "to" else None
     if heard_by is not None and to is None:
@@ -368,6 +370,12 @@ _RESULT = lexicon.phrases(
 )
 
 
+def _result_end(text: Text, at: int) -> int | None:
+    """Where words for what was found end: "the number"; but not how many *cups are on it*."""
+    end = text.phrase_end(_RESULT, at)
+    return end if end and (ends_clause(text, end) or text.word(end) == "to") else None
+
+
 def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Found:
     """Tell Julia what day it is; tell her the following: ..."""
     if text.words[at : at + 2] == ["the", "following"] and text.word(at + 2) in (COMMA, FULL_STOP):
@@ -384,6 +392,8 @@ def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Found:
 
 def answer(text: Text, at: int, scope: Scope) -> Found:
     """Answer Emil; answer his quiz; answer "how old are you?"."""
+    if text.word(at - 1) == "ask" and (asked := asking(text, at, scope)):
+        return asked
     asks = text.word(at - 1) in ("ask", "asks", "asking", "for")
     person = None
     at += text.word(at) in ("to", "with")

@@ -12,6 +12,7 @@ from intents.english.words.lexer import singular
 from intents.english.words.names import NameIndex
 from intents.goals import (
     OPERATOR,
+    Ask,
     Bring,
     Close,
     Count,
@@ -94,7 +95,7 @@ class Scope:
             kinds = {n.kind for n in self.index.exact(goal.object.name)}
             self.mention(goal.object.name if kinds and kinds <= {"place", "room"} else None)
         returns = isinstance(goal, GoTo) and goal.place == OPERATOR
-        if not (returns and isinstance(self.last, Count | Tell)):
+        if not (returns and isinstance(self.last, Ask | Count | Tell)):
             self.last = goal  # count them, come back and tell me the number
         for nested in ("goals", "then", "else_"):
             for inner in cast("tuple[Goal, ...]", getattr(goal, nested, ())):

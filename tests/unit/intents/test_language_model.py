@@ -559,7 +559,7 @@ def test_a_model_may_not_steer() -> None:
 def test_the_rules_tell_every_goal_with_its_slots_and_no_name_of_this_world() -> None:
     system = talk_of("tidy up", WORDS, Context()).messages[0]["content"]
     kinds = [line for line in system.splitlines() if line.startswith('{"goal":')]
-    assert len(kinds) == 25
+    assert len(kinds) == 26
     assert '{"goal":"pick", "object":OBJECT}  Take an object and hold it.' in kinds
     assert 5 <= len(EXAMPLES) <= 8
     assert not any(f'"{name}"' in system for name in ("cup", "plate", "shelf", "sink", "Ada"))

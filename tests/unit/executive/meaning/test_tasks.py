@@ -67,6 +67,11 @@ def refusal(text: str) -> Refused:
             "tell ann that dinner is ready",
             ["go to Ann", "look at Ann", "say 'dinner is ready'"],
         ),
+        ("ask ann if she is well", ["go to Ann", "look at Ann", "ask Ann"]),
+        (
+            "ask ann if she is well and tell me what she says",
+            ["go to Ann", "look at Ann", "ask Ann", "go to operator", "say the answer"],
+        ),
         ("say that dinner is ready", ["say 'dinner is ready'"]),
         ("what are you holding", ["report holding"]),
     ],

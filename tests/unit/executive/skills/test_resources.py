@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from executive.skills.ask import AskParams
 from executive.skills.balance import BalanceParams
 from executive.skills.catalogue import SKILLS, make
 from executive.skills.follow import FollowParams
@@ -33,6 +34,7 @@ EXAMPLES = (
     GestureParams(kind="wave"),
     GestureParams(kind="nod"),
     SayParams(text="hello"),
+    AskParams(text="Are you well?", person_id="ann"),
     WaitParams(duration_s=1.0),
     StopParams(),
     InspectParams(place_ids=("table",)),
