@@ -10,7 +10,7 @@ PLEAS = (
     "Could you step aside, please?",
     "Please let me pass.",
 )
-"""From afar or before them; where they have not left; and the last."""
+"""From afar or before them; where they have not left; and when the robot has stepped back."""
 OVER_S = 20.0
 """Who has not been in the way for so long is met anew."""
 
@@ -33,9 +33,13 @@ class Encounters:
         met = self._meet(person_id, now_s)
         return "" if met.said else self._next(met)
 
-    def plead(self, person_id: str, now_s: float) -> str:
-        """What to say to somebody before whom the robot stands; nothing once all was said."""
-        return self._next(self._meet(person_id, now_s))
+    def plead(self, person_id: str, now_s: float, *, made_room: bool = False) -> str:
+        """What to say to somebody before whom the robot stands; nothing once all was said.
+
+        Who has been given more room since has something new to go by: the last is said again.
+        """
+        met = self._meet(person_id, now_s)
+        return PLEAS[-1] if made_room and met.said == len(PLEAS) else self._next(met)
 
     def _meet(self, person_id: str, now_s: float) -> _Encounter:
         met = self._met.get(person_id)

@@ -37,13 +37,13 @@ def ask_aside(body: Body, person: PersonInfo) -> Script[None]:
     look_at(body, (*body.X_WPerson(person.id).p[:2], FACE_M))
     _plead(body, person)
     if not (yield from _stirs(body, person)):
-        yield from make_way(body, person)
-        _plead(body, person)
+        made_room = yield from make_way(body, person)
+        _plead(body, person, made_room=made_room)
         yield from _stirs(body, person)
 
 
-def _plead(body: Body, person: PersonInfo) -> None:
-    _say(body, body.context.encounters.plead(person.id, body.now_s))
+def _plead(body: Body, person: PersonInfo, *, made_room: bool = False) -> None:
+    _say(body, body.context.encounters.plead(person.id, body.now_s, made_room=made_room))
 
 
 def _say(body: Body, words: str) -> None:

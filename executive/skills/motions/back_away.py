@@ -37,18 +37,19 @@ def back_away(body: Body, side: Side, *, swing_m: float = 0.0) -> Script[None]:
     yield from _step_back(body, person, _retreat(body, body.X_WG(side).p, person, clear_m=clear_m))
 
 
-def make_way(body: Body, person: PersonInfo) -> Script[None]:
+def make_way(body: Body, person: PersonInfo) -> Script[bool]:
     """Step back from who stands in the way and does not leave: they may have no room to.
 
     As far as there is free floor for it, if it is not as far as they need, and room beside it for
-    arms that sway.
+    arms that sway. Says whether it did.
     """
     room_m = body.description.body_radius_m + body.description.walking.room.beside_m
     for clear_m in WAY_OUT_M:
         X_WS_goal = _retreat(body, body.X_WS.p, person, clear_m=clear_m)
         if X_WS_goal is not None and nearest_thing(body, X_WS_goal.p)[1] >= room_m:
             yield from _step_back(body, person, X_WS_goal)
-            return
+            return True
+    return False
 
 
 def _step_back(body: Body, person: PersonInfo, X_WS_goal: SE3 | None) -> Script[None]:

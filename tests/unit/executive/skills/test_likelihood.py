@@ -1,6 +1,7 @@
 """Likely places come first: said ones, surfaces for things, where such things are; seats last."""
 
 import msgspec
+import pytest
 
 from executive.skills.motions.habits import usual_places
 from executive.skills.motions.likelihood import LIKELY, SAID, UNLIKELY, prospects
@@ -108,6 +109,17 @@ def test_a_low_chest_that_is_called_after_such_things_is_looked_at_with_the_like
     home = msgspec.structs.replace(MAP, places=(chest, box))
     found = {one.place.id: one.worth for one in prospects(thing("photo box", "box"), home, ())}
     assert found["toy box"] == found["toy chest"]  # what it is made as says nothing
+
+
+@pytest.mark.parametrize("name", ["flea spray", "dog biscuits", "cat food can"])
+def test_what_is_for_a_pet_is_looked_for_where_pets_are(name) -> None:
+    """A flea spray was looked for in the kitchen and on two medicine shelves first (97 s)."""
+    stand, other = (
+        surface(called, "cabinet", x_m, 0.9) for called, x_m in (("pet stand", 0), ("locker", 2))
+    )
+    home = msgspec.structs.replace(MAP, places=(stand, other))
+    found = {one.place.id: one.worth for one in prospects(thing("it", name), home, ())}
+    assert found["pet stand"] > found["locker"]
 
 
 def room(name: str, *synonyms: str) -> Place:
