@@ -18,6 +18,9 @@ from robot.model.body import BodyModel, as_index
 from robot.se3 import SE3, Array, rotation_vector
 
 DAMPING = 0.03  # of the least squares: near a singularity the joints stay slow
+PRESSING, PRESSED_S = 0.5, 0.4
+"""So much of the most that a target runs ahead, for so long, is no sag: the arm presses. In contact
+its torques grew for two seconds, from 5 to 20 N m, before the robot was pushed over."""
 END_ZONE_RAD = 0.3
 """Before a joint's end: there it is moved away from it, where that leaves the hand alone."""
 
@@ -45,6 +48,7 @@ class Arm:
         self._time_s = 0.0
         self._spline: ClampedSpline | None = None
         self._line: Line | None = None
+        self._pressed_s = 0.0
         self._brake: Brake | None = None
         nv = body.model.nv
         self._jac: Array = np.zeros((6, nv))
@@ -187,6 +191,23 @@ class Arm:
         q = np.minimum(np.maximum(q, self.lower), self.upper)
         self.q, self.qd = q, rate
         self.qdd[:] = 0.0
+        self._stop_pressing(dt_s, measured, distance)
+
+    def _stop_pressing(self, dt_s: float, measured: Array, distance_m: float) -> None:
+        """Fail and come to rest where something has held the arm back for a while.
+
+        However often the line is aimed anew meanwhile: a hand under the edge of a board pressed
+        with all that it has until it slipped off, and the robot fell over.
+        """
+        held_back = float(np.abs(self.q - measured).max()) > PRESSING * self.limits.line_lead_rad
+        self._pressed_s = self._pressed_s + dt_s if held_back else 0.0
+        if self._pressed_s <= PRESSED_S:
+            return
+        if self.activity.status == "running":
+            detail = f"something holds it back, {1000 * distance_m:.0f} mm short"
+            self.activity = Activity(id=self.activity.id, status="failed", detail=detail)
+        self._come_to_rest(measured)
+        self._pressed_s = 0.0
 
     def _rate(self, jac: Array, twist: Array, near_rad: Array | None, *, dt_s: float) -> Array:
         """Joint rates that move the hand by a twist; none goes beyond its end.
@@ -212,7 +233,8 @@ class Arm:
 
         The hand is left alone; the elbow goes where the joints have room for the rest of the line.
         """
-        low, high = self.lower + END_ZONE_RAD, self.upper - END_ZONE_RAD
+        low: Array = self.lower + END_ZONE_RAD
+        high: Array = self.upper - END_ZONE_RAD
         return np.minimum(np.maximum(self.q, low), high)
 
     def _elbow_rate(self, jac: Array, damped: Array, near_rad: Array) -> Array:

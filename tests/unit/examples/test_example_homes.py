@@ -17,10 +17,8 @@ from sim.simulation import Simulation
 FOLDER = Path(__file__).parents[3] / "examples" / "homes"
 EXAMS = sorted(FOLDER.glob("*.tasks.yaml"))
 WAITING = {
-    "ask Nurse Kim if she needs anything": "nobody can be asked on behalf of somebody else yet",
     "the blue mug and the red mug belong on the deck table, take them there please": "asked back",
     "how many apples have we got on board?": "a board is taken for one of a shelf, and asked for",
-    "ask Ines if the lab results have arrived and tell Dr Haas what she says": "refused",
 }
 """Wishes as they were typed that are not understood yet, and how they end."""
 
