@@ -7,6 +7,8 @@ motors' sag shows at the hand. It is done here, not through mink, for its cost: 
 
 from __future__ import annotations
 
+import math
+
 import mujoco
 import numpy as np
 
@@ -18,9 +20,11 @@ from robot.model.body import BodyModel, as_index
 from robot.se3 import SE3, Array, rotation_vector
 
 DAMPING = 0.03  # of the least squares: near a singularity the joints stay slow
-PRESSING, PRESSED_S = 0.5, 0.4
-"""So much of the most that a target runs ahead, for so long, is no sag: the arm presses. In contact
-its torques grew for two seconds, from 5 to 20 N m, before the robot was pushed over."""
+NEARER_M, BEHIND_M, HELD_BACK_S = 0.005, 0.015, 0.5
+"""A hand that is so far behind its line, and in that time got no nearer to its end by so much, is
+held back by something."""
+SAME_AIM_M = 0.02
+"""A line that is aimed anew so near to where it went before goes on."""
 END_ZONE_RAD = 0.3
 """Before a joint's end: there it is moved away from it, where that leaves the hand alone."""
 
@@ -48,7 +52,7 @@ class Arm:
         self._time_s = 0.0
         self._spline: ClampedSpline | None = None
         self._line: Line | None = None
-        self._pressed_s = 0.0
+        self._nearest_m, self._held_back_s = math.inf, 0.0
         self._brake: Brake | None = None
         nv = body.model.nv
         self._jac: Array = np.zeros((6, nv))
@@ -90,8 +94,11 @@ class Arm:
             detail = f"near_rad must have {len(self.q)} values"
             self.activity = Activity(id=command.id, status="failed", detail=detail)
             return
+        before, going_on = self._line, self.activity.status == "running"
         self._begin(command.id)
         self._line = Line(command, X_NG, load_n)
+        if before is None or not going_on or not self._line.aims_as(before):
+            self._nearest_m, self._held_back_s = math.inf, 0.0
 
     def hold(self, command: HoldArm, measured: Array) -> None:
         """Brake, and hold the joints where they come to rest; `measured` shape (joints,)."""
@@ -191,23 +198,25 @@ class Arm:
         q = np.minimum(np.maximum(q, self.lower), self.upper)
         self.q, self.qd = q, rate
         self.qdd[:] = 0.0
-        self._stop_pressing(dt_s, measured, distance)
+        left_m = line.left_m(data.site_xpos[site])
+        self._stop_pressing(dt_s, measured, left_m=left_m, behind_m=distance)
 
-    def _stop_pressing(self, dt_s: float, measured: Array, distance_m: float) -> None:
-        """Fail and come to rest where something has held the arm back for a while.
+    def _stop_pressing(
+        self, dt_s: float, measured: Array, *, left_m: float, behind_m: float
+    ) -> None:
+        """Fail and come to rest where the hand gets no nearer to its goal, and the line goes on.
 
-        However often the line is aimed anew meanwhile: a hand under the edge of a board pressed
-        with all that it has until it slipped off, and the robot fell over.
+        However often the line is aimed anew meanwhile. Else it presses: a hand under the edge of a
+        board bent the trunk for two seconds, slipped off, and the robot fell over.
         """
-        held_back = float(np.abs(self.q - measured).max()) > PRESSING * self.limits.line_lead_rad
-        self._pressed_s = self._pressed_s + dt_s if held_back else 0.0
-        if self._pressed_s <= PRESSED_S:
+        if self._nearest_m - left_m > NEARER_M or left_m < self.limits.line_near_m:
+            self._nearest_m, self._held_back_s = left_m, 0.0
             return
-        if self.activity.status == "running":
-            detail = f"something holds it back, {1000 * distance_m:.0f} mm short"
+        self._held_back_s += dt_s if behind_m > BEHIND_M else 0.0
+        if self._held_back_s > HELD_BACK_S and self.activity.status == "running":
+            detail = f"something holds it back, {1000 * left_m:.0f} mm short"
             self.activity = Activity(id=self.activity.id, status="failed", detail=detail)
-        self._come_to_rest(measured)
-        self._pressed_s = 0.0
+            self._come_to_rest(measured)
 
     def _rate(self, jac: Array, twist: Array, near_rad: Array | None, *, dt_s: float) -> Array:
         """Joint rates that move the hand by a twist; none goes beyond its end.
@@ -289,6 +298,14 @@ class Line:
             mujoco.mju_quat2Mat(matrix, quat)
             rotation = matrix.reshape(3, 3) @ rotation
         return SE3.from_rotation(rotation, p), rate * self._delta
+
+    def left_m(self, p_N: Array) -> float:
+        """How far a point is from its end."""
+        return float(np.linalg.norm(np.array(self._goal.p) - p_N))
+
+    def aims_as(self, other: Line) -> bool:
+        """Whether its end is about that of another line."""
+        return math.dist(self._goal.p, other._goal.p) < SAME_AIM_M
 
     def contact(self, load_n: float) -> bool:
         """Has the load changed as much as asked for?"""
