@@ -226,11 +226,11 @@ class Arm:
         """
         moving = np.ones(len(self.q), dtype=bool)
         while True:
-            part = np.where(moving, jac, 0.0)
+            part: Array = jac * moving
             damped = part @ part.T + DAMPING**2 * np.eye(6)
             rate = part.T @ np.linalg.solve(damped, twist)
             near = self._off_its_ends() if near_rad is None else near_rad
-            rate += np.where(moving, self._elbow_rate(part, damped, near), 0.0)
+            rate += moving * self._elbow_rate(part, damped, near)
             q = self.q + rate * dt_s
             ended = moving & ((q < self.lower) & (rate < 0.0) | (q > self.upper) & (rate > 0.0))
             if not ended.any():
