@@ -20,7 +20,7 @@ from robot.model.body import BodyModel, as_index
 from robot.se3 import SE3, Array, rotation_vector
 
 DAMPING = 0.03  # of the least squares: near a singularity the joints stay slow
-NEARER_M, BEHIND_M, HELD_BACK_S = 0.005, 0.015, 0.5
+NEARER_M, BEHIND_M, HELD_BACK_S = 0.02, 0.015, 0.5
 """A hand that is so far behind its line, and in that time got no nearer to its end by so much, is
 held back by something."""
 SAME_AIM_M = 0.02
