@@ -184,11 +184,12 @@ def _doubts(
     no = _NO_VERB.match(heard)
     if no and direct and _is_all_forbidden(no[1]):
         yield "no"
-    if direct and not {"not", "never", "no"}.isdisjoint(Text(said, vocabulary).words):
-        return  # a slip was read as what it is
-    yield from (one for one in _slips(text, index_of(vocabulary)) if direct or one not in read)
+    slips = list(_slips(text, index_of(vocabulary)))
     if direct:
+        is_read = slips and not {"not", "never", "no"}.isdisjoint(Text(said, vocabulary).words)
+        yield from () if is_read else slips  # a slip that was read as what it is harms nothing
         return
+    yield from (one for one in slips if one not in read)
     told = " ".join(strings(goals))
     yield from (one for one in _WORD.findall(heard) if _is_lost_superlative(one, told))
     side = _ON_A_SIDE.search(heard)

@@ -161,12 +161,15 @@ def ground(
 
 
 def _of_the_kind(known: list[Entity], query: ObjectQuery) -> list[Entity]:
-    """Those that fit but for the first words of their names: the strawberry jam as "the jam"."""
-    kind = (query.name or "").lower()
-    if not kind or any(_alike(e.name, kind) for e in known):
+    """Those that fit but for the first words of their names: the strawberry jam as "the jam".
+
+    What names end with is a category where nobody gave one: "count the jams".
+    """
+    kind = (query.name or query.category or "").lower()
+    if not kind or any(_alike(kind, said) for e in known for said in (e.name, e.category)):
         return []
     named = [e for e in known if _alike(e.name.rpartition(" ")[2], kind)]
-    return [e for e in named if _fits(e, replace(query, name=None))]
+    return [e for e in named if _fits(e, replace(query, name=None, category=None))]
 
 
 def by_where(query: ObjectQuery) -> bool:

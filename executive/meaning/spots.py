@@ -58,6 +58,24 @@ def beside(how: How, one: Body, radius_m: float, *, view: Viewpoint) -> tuple[Sp
     return tuple(spots)
 
 
+def nearest_to(landmark: Place, surface: Place) -> tuple[Spot, ...]:
+    """Points of a surface, those that are nearest to a piece of furniture first."""
+    found = _world(surface, _grid(surface))
+    return tuple(sorted(found, key=lambda spot: away_m(spot, landmark)))
+
+
+def gap_m(one: Place, surface: Place) -> float:
+    """Free distance on the floor from a piece of furniture to a surface [m], to a grid's step."""
+    return min(away_m(spot, one) for spot in _world(surface, _grid(surface)))
+
+
+def away_m(spot: Spot, place: Place) -> float:
+    """Distance on the floor from a point to the rectangle of a place [m]; 0 within it."""
+    x, y, _ = place.X_WP.inverse().apply((*spot, place.X_WP.p[2]))
+    outside = (max(0.0, abs(v) - 0.5 * size) for v, size in zip((x, y), place.size_m, strict=True))
+    return math.hypot(*outside)
+
+
 def between(one: Point, other: Point) -> tuple[Spot, ...]:
     """Points between two things, the middle first."""
     along = (other[0] - one[0], other[1] - one[1])

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from executive.behaviours.run_skill import Bound
 from executive.meaning import answers
-from executive.meaning.handlers.putting import beside, part_of_place
+from executive.meaning.handlers.putting import beside, next_to_furniture, part_of_place
 from executive.meaning.handlers.settling import from_there, places_at
 from executive.meaning.handlers.steps import about, many, search, several, surfaces
 from executive.meaning.identify import Scene, cannot
@@ -223,7 +223,11 @@ def _carry_to(info: ObjectInfo, query: goals.ObjectQuery, target: str, scene: Sc
 def _put_beside(
     info: ObjectInfo, query: goals.ObjectQuery, relation: goals.Relation, scene: Scene
 ) -> Part:
-    """Put an object next to another one, which is found first."""
+    """Put an object next to another one, which is found first, or next to furniture."""
+    called = scene.knowledge.places(relation.of.name or "")
+    furniture = tuple(one for one in called if relation.of.at in (None, one.room)) or called
+    if furniture and relation.other is None and not scene.fitting(relation.of):
+        return _put_next_to(info, query, furniture, scene)
     ends = [end for end in (relation.of, relation.other) if end is not None]
     marks = [scene.object(end) for end in ends]
     if info in marks:
@@ -234,6 +238,25 @@ def _put_beside(
     put = about(info, name, beside(info, relation.how, marks, scene.knowledge), carries=True)
     scene.spoken_of = info.id
     return _fetched(info, query, scene, (*finds, put), name=name)
+
+
+def _put_next_to(
+    info: ObjectInfo, query: goals.ObjectQuery, furniture: tuple[Place, ...], scene: Scene
+) -> Part:
+    """Put an object next to a piece of furniture: on the surface that is nearest to it."""
+    landmark = furniture[0].name
+    found = next_to_furniture(furniture, scene.knowledge)
+    if found is None:
+        raise cannot(
+            "no_free_spot",
+            f"there is nothing next to the {landmark} that things can be put on",
+            suggestion="name a place to put it on",
+        )
+    surface, wanted = found
+    name = f"put {info.full_name} on the {surface.name}, next to the {landmark}"
+    params = PlaceParams(object_id=info.id, place_id=surface.id, spots=wanted)
+    scene.spoken_of = info.id
+    return _fetched(info, query, scene, (about(info, name, params, carries=True),), name=name)
 
 
 def _check_inside(target: str, scene: Scene) -> None:

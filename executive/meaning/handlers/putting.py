@@ -5,6 +5,7 @@ That is known when its turn comes: by then it was seen where the things are.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from executive.behaviours.run_skill import Bound
@@ -19,6 +20,9 @@ from intents import goals
 from intents.relations import Body, Viewpoint
 from robot.failures import Failure, failure
 from robot.messages import ObjectInfo, Place
+
+
+Spots = tuple[spots.Spot, ...]
 
 
 def beside(
@@ -49,6 +53,33 @@ def beside(
         return PlaceParams(object_id=info.id, place_id=place.id, spots=wanted)
 
     return params
+
+
+NEXT_TO_M = 0.6
+"""What stands farther from a piece of furniture than this is not next to it."""
+
+
+def next_to_furniture(marks: Sequence[Place], knowledge: Knowledge) -> tuple[Place, Spots] | None:
+    """The surface next to a piece of furniture, and its points, the nearest to it first.
+
+    It is what the furniture stands on (a lamp on a desk), else the nearest of another piece.
+
+    Args:
+        marks: What is called so.
+        knowledge: What is known of the world.
+
+    Returns:
+        None where no other surface is within `NEXT_TO_M` of it.
+    """
+    every = [place for place in knowledge.map.places if not place.floor]
+    found: list[tuple[float, Place, Place]] = []
+    for mark in marks:
+        others = [one for one in every if one.id != mark.id and (one.of or one.id) != mark.of]
+        found += [(spots.gap_m(mark, one), mark, one) for one in others if one.of != mark.id]
+    gap_m, mark, surface = min(found, key=lambda one: one[0], default=(math.inf, None, None))
+    if mark is None or surface is None or gap_m > NEXT_TO_M:
+        return None
+    return surface, spots.nearest_to(mark, surface)
 
 
 def part_of_place(info: ObjectInfo, place: Place, part: goals.Part) -> Bound:

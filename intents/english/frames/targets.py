@@ -98,8 +98,8 @@ def _after_description(phrase: NounPhrase, place: Locative, scope: Scope) -> Loc
 def _spot(place: Locative, scope: Scope) -> Target:
     if is_person(place.of, scope):
         raise Misfit("I can put things on or in places; to people I give them")
-    if place.how in _BESIDE and _is_thing(place.of):
-        of = replace(to_object(place.of, scope), count=None)
+    if place.how in _BESIDE and (_is_thing(place.of) or _is_by_furniture(place)):
+        of = replace(to_object(place.of, scope, spots=True), count=None)
         other = replace(to_object(place.other, scope), count=None) if place.other else None
         return Target(relation=Relation(how=place.how, of=of, other=other))
     if place.how not in ("on", "in", None):
@@ -127,7 +127,7 @@ def moved_beside(clause: Clause, slots: Slots) -> Target | None:
     last = bare.phrases[-1].places[-1:] if bare else []
     if not clause.verb.startswith(MOVES) or slots.peek("to", "into") or not last:
         return None
-    if last[0].how not in _BESIDE or not _is_thing(last[0].of):
+    if last[0].how not in _BESIDE or not (_is_thing(last[0].of) or _is_by_furniture(last[0])):
         return None
     assert bare is not None
     bare.phrases[-1].places.pop()
@@ -149,3 +149,9 @@ _BESIDE: tuple[How, ...] = ("near", "left", "right", "behind", "in_front", "betw
 def _is_thing(phrase: NounPhrase) -> bool:
     """Whether a phrase is of something that stands on a surface, to put things beside it."""
     return bool(phrase.name("object", "category")) or phrase.noun in ("one", "object")
+
+
+def _is_by_furniture(place: Locative) -> bool:
+    """Next to the lamp, beside the bed: on what stands next to it, not on it."""
+    named = place.of.name("place") and not place.of.name("room")
+    return place.how == "near" and bool(named) and place.other is None

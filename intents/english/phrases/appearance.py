@@ -96,6 +96,9 @@ def _clothing(text: Text, at: int) -> tuple[Clothing, int] | None:
         return None
     firm = word in ("wearing", "wears", "wear", "dressed")
     end += text.word(end) in DETERMINERS
+    named = text.name_at(end)
+    if word == "in" and named and named.of("room", "place"):
+        return None  # who is in the boot room, or the blue room, wears nothing of that name
     color = COLORS.get(text.word(end))
     end += color is not None
     end += text.word(end) in ("colored", "coloured")

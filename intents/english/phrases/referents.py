@@ -35,6 +35,9 @@ from intents.goals import (
 ME = Person(who="operator")
 _OBJECTS = ("object", "category")
 _SPOTS = ("place", "room")
+_ANY_OF_A_KIND = (
+    "a", "an", "any", "another", "some", "each", "every", "no", "which", "what", "whichever",
+)  # fmt: skip
 _INDEFINITE = ("a", "an", "any", "another", "either")
 
 
@@ -221,6 +224,8 @@ def _object_name(phrase: NounPhrase, scope: Scope, spots: bool) -> tuple[str, st
         kind = _kind(names)
         if kind and _where(phrase, scope)[1] is not None:
             return kind, ""  # which jam it is that is next to the milk is seen there
+        if kind and _is_of_a_kind(phrase, kind):
+            return "", kind  # count the jams: all of them, however they differ
         raise Unclear(f"Which {phrase.said}, {_the(names)}?", tuple(names), phrase.said)
     name = phrase.name("object", *(_SPOTS if spots else ()))
     return (name, "") if name else ("", phrase.name("category"))
@@ -230,6 +235,15 @@ def _kind(names: list[str]) -> str:
     """What names that differ have in common: "jam", of the strawberry jam and the plum jam."""
     last = {name.rpartition(" ")[2] for name in names}
     return last.pop() if len(last) == 1 else ""
+
+
+def _is_of_a_kind(phrase: NounPhrase, kind: str) -> bool:
+    """Whether it is no certain one: "the mugs", "two mugs", "any mug", but not "the mug"."""
+    head = phrase.said.split()[-1]
+    plural = head != singular(head)
+    loose = phrase.determiner in _ANY_OF_A_KIND
+    told = plural or loose or phrase.count is not None or phrase.superlative is not None
+    return told and kind in (head, singular(head))
 
 
 def to_person(phrase: NounPhrase, scope: Scope) -> Person:

@@ -103,6 +103,9 @@ class NameIndex:
             self._add(name, spelling)
         for name, spelling in spellings:
             self._add_parts(name, _split(spelling))
+        # What no longer name begins with needs no looking for one: most words of a sentence.
+        self._begins = {key[:end] for key in self._names for end in range(1, len(key) + 1)}
+        self._begins.add("'s")  # which counts for nothing
 
     def is_of(self, name: str, category: str | None) -> bool:
         """Whether a thing is of a category."""
@@ -135,7 +138,10 @@ class NameIndex:
 
     def match(self, words: list[str], start: int) -> Match | None:
         """The longest name that begins at a word."""
-        stop = min(len(words), start + self._longest)
+        if start >= len(words):
+            return None
+        longest = self._longest if words[start] in self._begins else 1
+        stop = min(len(words), start + longest)
         for end in range(start + 1, stop + 1):
             if not words[end - 1][0].isalnum() and words[end - 1] != "'s":
                 stop = end - 1

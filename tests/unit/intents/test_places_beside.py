@@ -30,6 +30,7 @@ UNSEEN = tuple(
     for name in ("red jar", "blue jar", "green jar")
 )
 RED = {"name": "jar", "color": "red"}
+NEAR_CABINET = {"how": "near", "of": {"name": "cabinet"}}
 CAN, GLUE = {"name": "oil can"}, {"name": "glue bottle"}
 
 
@@ -71,8 +72,27 @@ def test_the_place_is_as_it_was_said(text: str, place: dict[str, object]) -> Non
     assert goals(text) == [{"goal": "place", "object": RED, **place}]
 
 
-@pytest.mark.parametrize("where", ["behind", "in front of", "to the left of", "next to"])
-def test_furniture_is_nothing_to_put_a_thing_beside(where: str) -> None:
+@pytest.mark.parametrize("where", ["next to", "beside", "by", "near", "close to"])
+@pytest.mark.parametrize("verb", ["put", "set", "move", "leave", "take the oil can and put"])
+def test_next_to_furniture_is_a_place_to_put_a_thing(verb: str, where: str) -> None:
+    *_, goal = goals(f"{verb} the red jar {where} the cabinet")
+    assert goal == {"goal": "place", "object": RED, "relation": NEAR_CABINET}
+    again = in_words(parse(f"put the red jar {where} the cabinet", SHED).goals)  # type: ignore
+    assert goals(again)[-1] == goal
+
+
+def test_next_to_furniture_in_a_room_keeps_the_room() -> None:
+    (goal,) = goals("put the oil can next to the cabinet in the yard")
+    near = {"how": "near", "of": {"name": "cabinet", "at": "yard"}}
+    assert goal == {"goal": "place", "object": CAN, "relation": near}
+
+
+def test_a_room_is_nothing_to_put_a_thing_next_to() -> None:
+    assert isinstance(parse("put the red jar next to the office", SHED), Refusal)
+
+
+@pytest.mark.parametrize("where", ["behind", "in front of", "to the left of"])
+def test_furniture_has_no_sides_to_put_a_thing_on(where: str) -> None:
     assert isinstance(parse(f"put the red jar {where} the bench", SHED), Refusal)
 
 
