@@ -175,7 +175,9 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         if pointed:
             return pointed
     index = index_of(vocabulary)
-    last = third_look(text, index, found, _reader(vocabulary, context, heard))
+    follows = bool(context.object or context.person or context.place or context.goals)
+    read = _reader(vocabulary, context, heard)
+    last = third_look(text, index, found, read, follows=follows)
     if last is not found:
         outcome, after = _within_bounds(text, vocabulary, context, last)
     careful = _as_cried(text, last, outcome)

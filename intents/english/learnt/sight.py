@@ -1,5 +1,6 @@
 """A sentence as the learnt fields see it: what each word, each name and the whole may be."""
 
+from functools import lru_cache
 from typing import NamedTuple
 
 from intents.english.learnt.background import IDLE
@@ -28,7 +29,19 @@ class Sight(NamedTuple):
 
 
 def sight(text: str, index: NameIndex, fields: Fields = LEARNT) -> Sight | None:
-    """How the fields see a sentence; None if it has no word."""
+    """How the fields see a sentence; None if it has no word.
+
+    What the fields of the package see of the last sentences is kept: they are looked at twice.
+    """
+    return _shipped_sight(text, index) if fields is LEARNT else _sight(text, index, fields)
+
+
+@lru_cache(maxsize=4)
+def _shipped_sight(text: str, index: NameIndex) -> Sight | None:
+    return _sight(text, index, LEARNT)
+
+
+def _sight(text: str, index: NameIndex, fields: Fields) -> Sight | None:
     words = said(text)
     if not words:
         return None

@@ -17,7 +17,7 @@ LAMP = (0.4, 2.0)
 
 
 class _Bedroom(MappedWorld):
-    """A desk with a lamp on it, a bed with a nightstand at its right side, a bench far from both."""
+    """A desk with a lamp on it, a bed with a nightstand beside it, a bench far from both."""
 
     def __init__(self) -> None:
         super().__init__("bedroom")
