@@ -90,7 +90,7 @@ _ON_PURPOSE = ("as said to", "I do only what I am asked for")
 """What the grammar remarks where it keeps from an order what is another's, or forbidden."""
 _ALTERNATIVE, _ACT_MISSING = " or ", "What shall I do with"
 """In a question: what can be meant in two ways; what is named, and nothing is said to be done."""
-_BY_THE_WAY = (Wait, Stop, Cancel, Pause, Report, LookAt)
+_BY_THE_WAY = (Wait, Stop, Cancel, Pause, Report)
 """What is read out of talk beside an order: "hang on", "never mind", "look"."""
 _ASKS = lexicon.words("please you your me us can could would should must ought let lets let's")
 """Without one of these, and without a verb at the beginning, a sentence only tells something."""
@@ -98,6 +98,10 @@ _SMALL_TALK = (Report, Cancel)
 """What is easily read out of what is said to anybody: "how is the day", "what is on the list"."""
 _STRANGE = 1
 """With so many unknown words an order that the grammar read whole is still plainly put."""
+_GREETING = re.compile(
+    r"^\W*(?:(?:sorry|excuse me|hey|hi|hello|okay|ok|well|right|so)\b\W*)+", re.IGNORECASE
+)
+"""Ahead of an order these leave it as plainly put."""
 _SEVERAL = 2
 _BESIDE = re.compile(rf",\s*(?:{'|'.join(sorted(lexicon.DETERMINERS))})\s+(\w+)\s*,")
 """Something more that is meant: "the kettle, the cosy, ..."."""
@@ -180,11 +184,14 @@ def _leaves_out(goals: Sequence[Goal], before: Attempt) -> bool:
     """Whether the network only leaves out an order that the grammar read, and no talk."""
     if not isinstance(before.outcome, Goals) or any(goal not in before.goals for goal in goals):
         return False
-    left = (goal for goal in before.goals if goal not in goals)
-    return any(
-        not isinstance(goal, _BY_THE_WAY) or (isinstance(goal, Wait) and goal.duration_s)
-        for goal in left
-    )
+    return any(not _is_by_the_way(goal) for goal in before.goals if goal not in goals)
+
+
+def _is_by_the_way(goal: Goal) -> bool:
+    """Whether somebody may have said that without asking for it: "hang on", not "wait 10 s"."""
+    if isinstance(goal, LookAt):
+        return goal.object is None and goal.person is None
+    return isinstance(goal, _BY_THE_WAY) and not (isinstance(goal, Wait) and goal.duration_s)
 
 
 def _only_tells(text: str, both: Both) -> bool:
@@ -240,12 +247,10 @@ def _is_open(text: str, said: Sequence[str], before: Attempt, *, follows: bool) 
         if kept or not is_known(before.goals):
             return False
         words = _WORDS.findall(text.lower())
+        beside = len(before.goals) > 1 and any(map(_is_by_the_way, before.goals))
+        plain = is_plainly_put(_GREETING.sub("", text), said, strange=_STRANGE) and not beside
         refers = follows and not _REFERS.isdisjoint(words)
-        return not (
-            refers
-            or not _TAKEN_BACK.isdisjoint(words)
-            or is_plainly_put(text, said, strange=_STRANGE)
-        )
+        return not (refers or plain or not _TAKEN_BACK.isdisjoint(words))
     return bool(before.goals) or not is_settled(text, before)
 
 

