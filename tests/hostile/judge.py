@@ -55,6 +55,9 @@ ANSWERS = re.compile(
 )
 
 MOVED = re.compile(rb"([0-9.]+) s of robot time in")
+EVALUATED = re.compile(rb"judged by the simulator")
+EVALUATED_S = re.compile(rb"(?<=\s)([0-9.]+) s(?=\s)")
+"""The column `robot time` of the table of an evaluation."""
 
 CURE = "What to do"
 """Introduces a cure; a problem outside any file has its own in brackets behind it."""
@@ -93,7 +96,10 @@ def _takes_long(case: Case, result: Result) -> bool:
 
 def _moved_s(result: Result) -> float:
     """Robot time that was simulated, as the command tells it: it may take as much."""
-    return sum(float(told) for told in MOVED.findall(result.out))
+    moved_s = MOVED.findall(result.out)
+    if EVALUATED.search(result.out):
+        moved_s += EVALUATED_S.findall(result.out)
+    return sum(map(float, moved_s))
 
 
 def _said(case: Case, text: str) -> list[str]:

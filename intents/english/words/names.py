@@ -60,6 +60,8 @@ def _likeness(said: str, name: str, *, score_cutoff: float | None = None) -> flo
 _SHORT_OR_LONG = SHORT_WORDS | {short: long for long, short in SHORT_WORDS.items()}
 _INITIALS = 2
 """A name of more words is also called by the initials of all but its last."""
+_BEGINNING = 32
+"""So many letters tell what no name begins with; names of strangers may have thousands."""
 _PART = 2
 """A part that is no longer than this, "of" or "a", tells nothing."""
 
@@ -104,7 +106,8 @@ class NameIndex:
         for name, spelling in spellings:
             self._add_parts(name, _split(spelling))
         # What no longer name begins with needs no looking for one: most words of a sentence.
-        self._begins = {key[:end] for key in self._names for end in range(1, len(key) + 1)}
+        starts = {key[:_BEGINNING] for key in self._names}
+        self._begins = {start[:end] for start in starts for end in range(1, len(start) + 1)}
         self._begins.add("'s")  # which counts for nothing
 
     def is_of(self, name: str, category: str | None) -> bool:
@@ -140,7 +143,7 @@ class NameIndex:
         """The longest name that begins at a word."""
         if start >= len(words):
             return None
-        longest = self._longest if words[start] in self._begins else 1
+        longest = self._longest if words[start][:_BEGINNING] in self._begins else 1
         stop = min(len(words), start + longest)
         for end in range(start + 1, stop + 1):
             if not words[end - 1][0].isalnum() and words[end - 1] != "'s":
