@@ -271,6 +271,8 @@ def _share(sentence: Sentence, said: SaidVerb, at: int, goals: list[Goal]) -> No
     last = before[-1] if before else None
     between = sentence.text.words[said.first : at]
     untold = _OF_SPEAKER.isdisjoint(between) and FULL_STOP not in between
+    if untold and isinstance(last, Guide) and isinstance(goal, Guide) and last.to is None:
+        before[-1] = replace(last, to=goal.to)  # Ada and Leo to the door
     if not untold or not isinstance(last, Bring) or last.to != ME:
         return
     if isinstance(goal, Bring) and goal.to != ME:

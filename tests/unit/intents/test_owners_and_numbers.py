@@ -41,6 +41,7 @@ from intents.outcomes import Goals
             "put all tools on the counter, only the hammer not",
             "put all the tools except the hammer on the counter",
         ),
+        ("put everything barring the cola on the bar", "put everything except the cola on the bar"),
         ("the very very smallest saucer, bring it to me", "bring me the smallest saucer"),
         (
             "bring me the really really biggest peach in the whole pantry",

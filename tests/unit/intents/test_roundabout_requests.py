@@ -73,6 +73,15 @@ def test_who_has_to_get_somewhere_is_taken_there(said: str):
     assert outcome.goals == (Guide(person=Person(who="operator"), to="spa"),)
 
 
+@pytest.mark.parametrize("way", ["take {} and {} to the spa", "guide {}, then {} to the spa"])
+def test_where_two_are_taken_is_told_once_and_is_for_both(way: str):
+    outcome = heard(way.format("Hans", "Lucia"))
+    assert isinstance(outcome, Goals), outcome
+    assert outcome.goals == tuple(
+        Guide(person=Person(name=name), to="spa") for name in ("Hans", "Lucia")
+    )
+
+
 def test_where_one_has_to_go_is_only_told_beside_an_order():
     outcome = heard("I have to go to the lobby, so bring me the scarf")
     assert isinstance(outcome, Goals), outcome
