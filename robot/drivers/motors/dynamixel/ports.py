@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import termios
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -78,7 +79,7 @@ class SerialPorts(Closing):
         for name, port in self._ports.items():
             try:
                 opened = serial.Serial(port.device, port.baud_hz, timeout=0, write_timeout=0)
-            except (OSError, ValueError) as error:
+            except (OSError, ValueError, termios.error) as error:
                 self.close()
                 cure = "is it plugged in, and may you open it (group dialout)?"
                 raise DriverError(

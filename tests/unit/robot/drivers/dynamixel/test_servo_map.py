@@ -94,3 +94,21 @@ def test_a_port_that_is_not_there_is_an_error_with_a_cure(tmp_path):
     ports = serial_ports.SerialPorts({"arm": Port(device=str(tmp_path / "nowhere"))})
     with pytest.raises(DriverError, match=r"nowhere cannot be opened.*dialout"), ports:
         pass
+
+
+def test_a_port_that_goes_away_while_it_is_opened_is_an_error_with_a_cure(tmp_path, monkeypatch):
+    """Then flushing it raises what is no OSError."""
+    master, slave = pty.openpty()
+    device = os.ttyname(slave)
+
+    def unplug(_: object) -> None:
+        os.close(master)
+        os.close(slave)
+
+    monkeypatch.setattr(serial_ports.serial.Serial, "_update_dtr_state", lambda _: None)
+    monkeypatch.setattr(serial_ports.serial.Serial, "_update_rts_state", unplug)
+    with (
+        pytest.raises(DriverError, match=r"cannot be opened.*dialout"),
+        serial_ports.SerialPorts({"arm": Port(device=device)}),
+    ):
+        pass
