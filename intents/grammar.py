@@ -188,6 +188,9 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
     if sentence.notes.guessed:
         said = listing([f"“{verb}”" for verb in sentence.notes.guessed], "and")
         raise Offered(f"I do not know how to {said}", tuple(goals))
+    verb = sentence.notes.verb
+    if verb is not None and verb.at == verb.first and text.asks and not text.polite:
+        raise Offered("I am not sure whether you ask that", tuple(goals))  # the cup to the table?
     remarks = (*_forbidden(sentence, goals), *_unkept(sentence, goals), *_at_a_pace(text, goals))
     if any(names_hand(text.raw(*span), goals) for span in sentence.notes.passed):
         raise Partly(_OWN_HAND, tuple(goals))

@@ -14,6 +14,7 @@ from intents.allowed import excess
 from intents.bounds import loosened, tells, unkept
 from intents.caution import cautious
 from intents.context import Context, answered, completed
+from intents.english.clauses.telling import only_tells
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
 from intents.english.trouble import (
@@ -46,6 +47,7 @@ from intents.grounding import (
 from intents.halting import is_insistent
 from intents.languages import language_of, only_english
 from intents.outcomes import Choice, Goals, Outcome, Question, Refusal
+from intents.prohibitions import broken
 from intents.second_look import Attempt, just_that, remarked, second_look
 from intents.stopping import is_stop
 from intents.third_look import third_look
@@ -178,6 +180,8 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
     follows = bool(context.object or context.person or context.place or context.goals)
     read = _reader(vocabulary, context, heard)
     last = third_look(text, index, found, read, follows=follows)
+    if last is not found and broken(last.goals, [text], vocabulary):
+        last = found  # what is not to be done is not even offered
     if last is not found:
         outcome, after = _within_bounds(text, vocabulary, context, last)
     careful = _as_cried(text, last, outcome)
@@ -343,7 +347,9 @@ def first_look(text: str, vocabulary: Vocabulary, context: Context) -> Attempt:
     try:
         understood = read(words, scope, context.goals)
     except Partly as partly:
-        return Attempt(*_settled(just_that(text, partly), context, scope), partly)
+        return Attempt(
+            *_settled(just_that(text, partly), context, scope), partly, only_tells(words)
+        )
     except Unclear as unclear:
         choices = tuple(Choice(label=c) for c in unclear.choices)
         kind = "choice" if choices else "missing"
@@ -352,16 +358,16 @@ def first_look(text: str, vocabulary: Vocabulary, context: Context) -> Attempt:
             about=unclear.about,
         )  # fmt: skip
         after = context if unclear.about is None else replace(context, object=unclear.about)
-        return Attempt(question, after, unclear)
+        return Attempt(question, after, unclear, only_tells(words))
     except ReadingError as error:
         puzzled = not isinstance(error, Unasked)
-        asks = isinstance(error, Unread) and words.word(0) in _ASKING
+        asks = isinstance(error, Unread) and words.word(0) in _ASKING and words.word(1) != "not"
         hint = f" {ANSWERED}" if asks else ""
         refusal = Refusal(reason=f"{_sentence(str(error))}.{hint}", puzzled=puzzled)
-        return Attempt(refusal, context, error)
+        return Attempt(refusal, context, error, only_tells(words))
     if not understood.goals:
         nothing = "I see nothing to do in that."
-        return Attempt(Refusal(reason=nothing), context, Idle(nothing))
+        return Attempt(Refusal(reason=nothing), context, Idle(nothing), only_tells(words))
     checked = _checked(text, understood.goals, context)
     if isinstance(checked, Goals):
         checked = replace(checked, clauses=understood.clauses)

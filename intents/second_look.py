@@ -5,7 +5,7 @@ them is taken where it is likely enough, else it is asked about.
 """
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from msgspec.structs import replace
@@ -28,8 +28,9 @@ from intents.english.trouble import (
     Unpromised,
     Unread,
 )
+from intents.english.words import lexicon
 from intents.english.words.names import NameIndex
-from intents.goals import Goal, If
+from intents.goals import Answer, Count, Find, Goal, If, LookAt, Report, Tell, each
 from intents.outcomes import YES_OR_NO, Goals, Outcome, Question, Refusal
 from intents.wording import in_words
 
@@ -49,6 +50,11 @@ _FEWEST = 3
 """So few leave none at all."""
 _MOST_REWORDED = 2
 """So many remainders without whole clauses are said in plain words: each takes a millisecond."""
+_ASKS = lexicon.words("please could can would will shall may might let fancy")
+"""With one of these a question may ask for something to be done."""
+_LOOKING = (Find, Count, Tell, Report, Answer, LookAt)
+"""What answers a question."""
+_WORDS = re.compile(r"[\w']+")
 LONGEST = 60
 """Longer than that nobody talks beside an order that the grammar reads."""
 _OWN_DOING = re.compile(
@@ -61,11 +67,19 @@ _BETWEEN = re.compile(r"[,;:—–(]|[.!?…].*\w")
 
 
 class Attempt(NamedTuple):
-    """What the grammar makes of a text, and the error if it makes no sense of it."""
+    """What the grammar makes of a text.
+
+    Attributes:
+        outcome: What is said or done.
+        after: The context after it.
+        error: Why it makes no sense; None if it does.
+        tells: Whether it has the form of a statement through and through.
+    """
 
     outcome: Outcome
     after: Context
     error: ReadingError | None = None
+    tells: bool = False
 
     @property
     def goals(self) -> tuple[Goal, ...]:
@@ -138,14 +152,22 @@ def second_look(
         hardly = hardly and not _passes_orders(text, best, read)
         sound = alike or not hardly or not is_known(first.goals, fields)
         return first if sound else _instead(text, best, likely, first)
-    if likely >= best.least:
+    told = first.tells or only_asks(text, best.attempt.goals)
+    if likely >= best.least and not told:
         return best.attempt._replace(outcome=remarked(best.attempt.outcome, best.remark))
     if isinstance(first.outcome, Refusal) and not isinstance(first.error, Unread):
         return first  # it says what is not there
     if isinstance(first.outcome, Question) or likely < _GUESS:
         return first
     asked = just_that(text, Partly(best.doubt, best.attempt.goals))
-    return best.attempt._replace(outcome=asked)
+    return best.attempt._replace(outcome=asked, tells=first.tells)
+
+
+def only_asks(text: str, goals: Sequence[Goal]) -> bool:
+    """Whether a question that asks for nothing to be done was taken for an order."""
+    words = _WORDS.findall(text.lower().replace("’", "'"))
+    asks = text.rstrip(" \"'”)").endswith("?") and _ASKS.isdisjoint(words)
+    return asks and not all(isinstance(goal, _LOOKING) for goal in each(goals))
 
 
 def _passes_orders(text: str, look: Look, read: Grammar) -> bool:

@@ -31,6 +31,7 @@ from intents.english.words import lexicon
 from intents.english.words.limits import CONDITIONS, MEASURES
 from intents.english.words.measures import number
 from intents.english.words.names import NameIndex
+from intents.english.words.reporting import is_reported
 from intents.goals import (
     Answer,
     Cancel,
@@ -53,6 +54,7 @@ from intents.second_look import (
     is_plain,
     is_settled,
     just_that,
+    only_asks,
     remarked,
 )
 
@@ -81,6 +83,7 @@ _REFERS = lexicon.words(
 """What may stand for something that was said before."""
 _TAKEN_BACK = lexicon.words("no nope instead rather")
 """With these the grammar knows what takes whose place, and the network seldom."""
+_TITLE = re.compile(r"^(?:mr|mrs|ms|miss|dr|prof|professor|doctor|sir|madam|uncle|auntie)\.? ")
 _WORDS = re.compile(r"[\w']+")
 _MEANT = re.compile(r"\bI meant? (?:the|a|an|my|your|our|his|her|this|that)\s+\w", re.IGNORECASE)
 """I mean *the cellar*: what takes another's place, be it known or not."""
@@ -172,7 +175,8 @@ def _lacks(text: str, index: NameIndex, before: Attempt, both: Both, likely: flo
     goals = both.other.goals
     is_short = len(text.split()) <= SHORT and _offers(before) == goals
     guessed = both.likely < FOUND
-    guessed |= isinstance(before.error, Idle) or _only_tells(text, both)
+    guessed |= isinstance(before.error, Idle) or before.tells or _only_tells(text, both)
+    guessed |= is_reported(text) or only_asks(text, goals) or _calls_somebody(text, both)
     says = any(isinstance(goal, Say) for goal in each(goals))
     guessed |= likely < SURER and (says or _measures(text) or _loses_limit(text, both))
     small = all(isinstance(goal, _SMALL_TALK) for goal in goals)
@@ -200,6 +204,13 @@ def _only_tells(text: str, both: Both) -> bool:
     signs = plainness(text, [name.said for name in both.names], 1, "")
     told = not {"begins=article", "begins=name", "begins=about"}.isdisjoint(signs)
     return told and _ASKS.isdisjoint(words)
+
+
+def _calls_somebody(text: str, both: Both) -> bool:
+    """Whether a sentence begins with the name of somebody, who is spoken to: "Leo, sit here"."""
+    people = [name.said.lower() for name in both.names if name.sort == "person"]
+    said = _TITLE.sub("", text.lower().lstrip())
+    return any(said.startswith((f"{one},", f"{one}!")) for one in people)
 
 
 def _leaves_one_out(text: str, both: Both) -> bool:

@@ -7,6 +7,15 @@ from msgspec.structs import replace
 from intents.english.clauses.asking import answer_told, asking
 from intents.english.clauses.compounds import condition
 from intents.english.clauses.conditions import IF
+from intents.english.clauses.listeners import (
+    TO,
+    addressed_end,
+    last_listener,
+    listener_at,
+    listeners,
+    meant_listener,
+    refuse_more,
+)
 from intents.english.clauses.markers import marker_end
 from intents.english.clauses.openings import nothing_end, otherwise_end, skip_openings
 from intents.english.clauses.questions import property_question, question
@@ -25,15 +34,15 @@ from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import Answer, Count, Find, Goal, Person, Say, Tell
 
-_TO = lexicon.words("to for with")
 _ABOUT = lexicon.phrases(
     "about,of,know,know about,as to,regarding,that,on,to know,with,out,me with"
 )
+_SEVERAL = 2
+_QUESTION_WORDS = lexicon.words("question questions quiz quizzes query queries")
 _LETTERS = lexicon.words(
     "message messages mail mails email emails letter phone phones telephone telephones call calls "
     "tweet chat door doors doorbell bell intercom buzzer"
 )
-_QUESTION_WORDS = lexicon.words("question questions quiz quizzes query queries")
 
 
 def content_end(text: Text, at: int) -> int:
@@ -78,36 +87,6 @@ def _before_times(text: Text, at: int, end: int) -> int:
     return end
 
 
-def _listener(text: Text, at: int, scope: Scope) -> NounPhrase | None:
-    """The person at a word, if one is there."""
-    if text.word(at) in ("his", "her") and text.word(at + 1) in _QUESTION_WORDS:
-        return None
-    if text.word(at) == "where":
-        return None
-    phrase = noun_phrase(text, at)
-    return phrase if phrase and is_person(phrase, scope) else None
-
-
-def _last_listener(text: Text, at: int, end: int, scope: Scope) -> tuple[Person | None, int]:
-    """The person after the last "to", and where the words before it end."""
-    for to in range(end - 2, at - 1, -1):
-        if text.word(to) in _TO:
-            phrase = _listener(text, to + 1, scope)
-            if phrase and phrase.end >= end:
-                return to_person(phrase, scope), to
-    return None, end
-
-
-def _meant_listener(text: Text, first: NounPhrase, scope: Scope) -> NounPhrase:
-    """Tell Ada, *no, Leo*, that ...: who is told in the end."""
-    marked = marker_end(text, first.end + 1) if text.word(first.end) == COMMA else None
-    other = _listener(text, marked, scope) if marked else None
-    if other is None or text.word(other.end) not in (COMMA, "that", QUOTE, FULL_STOP):
-        return first
-    other.end += text.word(other.end) == COMMA
-    return other
-
-
 def _is_broken_off(text: Text, at: int) -> bool:
     """Say to Ada, *no, say to Leo ...*: what was begun is taken back, and not to be said."""
     marked = marker_end(text, at + 1) if text.word(at) == COMMA else None
@@ -119,34 +98,6 @@ def _is_broken_off(text: Text, at: int) -> bool:
 
 
 _SPEAKING = {"say", "tell", "answer", "inform"}
-_SENDERS = (["for", "me"], ["for", "us"])
-_TO_SOMEBODY = lexicon.words(
-    "went go gone going gave give given spoke talk talked brought sent told"
-)
-"""What somebody does who tells of it: "I went to Leo" is not said to Leo."""
-_OF_THEM = lexicon.words("he she they it we i because since as cause so and")
-
-
-def _addressed(text: Text, at: int, end: int, scope: Scope) -> tuple[int, int] | None:
-    """Happy birthday *to Grandma*, she is eighty; good night *to Leo from me*.
-
-    Where the listener's name ends, and where what belongs to it ends; None if words follow that
-    may well be part of what is to be said.
-    """
-    went = at
-    while went < end and text.word(went) not in _TO_SOMEBODY:
-        went += 1
-    for to in range(at + 1, went if text.word(at) in _OF_THEM else end):
-        phrase = _listener(text, to + 1, scope) if text.word(to) == "to" else None
-        if phrase is None or not phrase.name("person"):
-            continue
-        after = phrase.end + 2 * (text.words[phrase.end : phrase.end + 2] in _SENDERS)
-        while text.word(phrase.end) == "from" and text.word(after) not in (COMMA, FULL_STOP):
-            after += 1  # from all of us
-        aside = text.word(after) == COMMA and text.word(after + 1) in _OF_THEM
-        if after > phrase.end or aside:
-            return phrase.end, after
-    return None
 
 
 def say(text: Text, at: int, scope: Scope) -> Found:
@@ -159,10 +110,10 @@ def say(text: Text, at: int, scope: Scope) -> Found:
     if itself:
         return itself  # state your position
     to = None
-    if text.word(at) in _TO:
-        first = _listener(text, at + 1, scope)
+    if text.word(at) in TO:
+        first = listener_at(text, at + 1, scope)
         if first:
-            first = _meant_listener(text, first, scope)
+            first = meant_listener(text, first, scope)
             to, at = to_person(first, scope), first.end
     if to is not None and _is_broken_off(text, at):
         return [Find(person=to)], at
@@ -174,10 +125,10 @@ def say(text: Text, at: int, scope: Scope) -> Found:
     at += text.word(at) == "that"
     end = _before_times(text, at, content_end(text, at))
     stop = end = _before_condition(text, at, end, scope)
-    addressed = _addressed(text, at, end, scope) if to is None else None
+    addressed = addressed_end(text, at, end, scope) if to is None else None
     if to is None:
         named, end = addressed or (end, end)
-        to, stop = _last_listener(text, at, named, scope)
+        to, stop = last_listener(text, at, named, scope)
     stop, here = _place_of_speech(text, at, stop, scope)
     if stop <= at and text.word(at) != QUOTE:
         if to is None and text.word(at - 1) not in ("speak", "talk", "joke"):
@@ -200,7 +151,7 @@ def _quotes(text: Text, at: int, scope: Scope) -> Found:
         end = min(content_end(text, at), stop)
         while end > at + 1 and (text.word(end - 1) == COMMA or connector_end(text, end - 1)):
             end -= 1
-        to, _ = _last_listener(text, at + 1, end, scope)
+        to, _ = last_listener(text, at + 1, end, scope)
         goals.append(Say(what=text.tokens[at].raw, to=to))
         end = end if to else at + 1
         at = skip_openings(text, end)
@@ -248,7 +199,7 @@ def _to_listener(text: Text, reading: Found, scope: Scope) -> Found:
     """Read on after a question: ... to the person at the sofa."""
     goals, end = reading
     if text.word(end) == "to":
-        phrase = _listener(text, end + 1, scope)
+        phrase = listener_at(text, end + 1, scope)
         if phrase:
             person = to_person(phrase, scope)
             return [_with_listener(g, person) for g in goals], phrase.end
@@ -261,13 +212,11 @@ def _with_listener(goal: Goal, person: Person) -> Goal:
 
 def tell(text: Text, at: int, scope: Scope) -> Found:
     """Tell Ada and Emil that lunch is ready: first the one, then the other."""
-    first = _listener(text, at + (text.word(at) in _TO), scope)
-    second = None
-    if first and first.name("person") and text.word(first.end) == "and":
-        second = _listener(text, first.end + 1, scope)
-    if first is None or second is None:
+    everyone = listeners(text, at + (text.word(at) in TO), scope)
+    if len(everyone) < _SEVERAL:
         return _tell(text, at, None, scope)
-    told = [_tell(text, second.end, to_person(one, scope), scope) for one in (first, second)]
+    end = everyone[-1].end
+    told = [_tell(text, end, to_person(one, scope), scope) for one in everyone]
     return [goal for goals, _ in told for goal in goals], told[0][1]
 
 
@@ -275,11 +224,11 @@ def _tell(text: Text, at: int, listener: Person | None, scope: Scope) -> Found:
     """Tell me how many cups there are; tell Julia a joke; inform them of the time."""
     to = listener
     at += text.word(at) == "back" and text.word(at - 1) in ("report", "get")
-    if text.word(at) in _TO and text.word(at) != "for":
+    if text.word(at) in TO and text.word(at) != "for":
         at += 1
-    first = None if listener else _listener(text, at, scope)
+    first = None if listener else listener_at(text, at, scope)
     if first and text.word(first.end) != "'s":
-        first = _meant_listener(text, first, scope)
+        first = meant_listener(text, first, scope)
         to, at = to_person(first, scope), first.end
     if to is not None and _is_broken_off(text, at):
         return [Find(person=to)], at
@@ -293,7 +242,7 @@ def _tell(text: Text, at: int, listener: Person | None, scope: Scope) -> Found:
         return relayed
     result = _result_end(text, at)
     found = result or (at if ends_clause(text, at) else None)
-    heard_by = _listener(text, found + 1, scope) if found and text.word(found) == "to" else None
+    heard_by = listener_at(text, found + 1, scope) if found and text.word(found) == "to" else None
     if heard_by is not None and to is None:
         to, found = to_person(heard_by, scope), heard_by.end
     if found is not None and isinstance(scope.last, Count | Tell):
@@ -306,9 +255,9 @@ def _tell(text: Text, at: int, listener: Person | None, scope: Scope) -> Found:
     if to is not None and to != ME:
         return _said_to(text, at, to, scope)
     end = content_end(text, at)
-    listener, stop = _last_listener(text, at, end, scope)
-    if to is None and listener and listener != ME:
-        return [Say(what=text.raw(at, stop), to=listener)], end
+    heard, stop = last_listener(text, at, end, scope)
+    if to is None and heard and heard != ME:
+        return [Say(what=text.raw(at, stop), to=heard)], end
     talk = small_talk(text, at, stop)
     if talk is None:
         raise NotUnderstood(f"“{text.raw(at, end)}” is nothing I can find out" if end > at else
@@ -322,7 +271,7 @@ def inform(text: Text, at: int, scope: Scope) -> Found:
     Raises:
         Misfit: It is a thing that is to be given.
     """
-    first = _listener(text, at, scope)
+    first = listener_at(text, at, scope)
     if first:
         at = first.end
     to = to_person(first, scope) if first else None
@@ -343,8 +292,8 @@ def describe(text: Text, at: int, scope: Scope) -> Found:
         Misfit: It is nothing that can be seen.
     """
     to = None
-    if text.word(at) in _TO:
-        first = _listener(text, at + 1, scope)
+    if text.word(at) in TO:
+        first = listener_at(text, at + 1, scope)
         if first:
             to, at = to_person(first, scope), first.end
     asked_after = property_question(text, at, scope, to)
@@ -380,6 +329,8 @@ def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Found:
     """Tell Julia what day it is; tell her the following: ..."""
     if text.words[at : at + 2] == ["the", "following"] and text.word(at + 2) in (COMMA, FULL_STOP):
         at += 3
+    if text.word(at) in ("and", "or"):
+        refuse_more(text, at)
     end = _before_condition(text, at, content_end(text, at), scope)
     if end == at:
         raise Unclear("What shall I tell?")
@@ -399,7 +350,7 @@ def answer(text: Text, at: int, scope: Scope) -> Found:
     at += text.word(at) in ("to", "with")
     if text.word(at) in ("it", "that", "this") and isinstance(scope.last, Answer):
         return [], at + 1
-    first = _listener(text, at, scope)
+    first = listener_at(text, at, scope)
     if first:
         person, at = to_person(first, scope), first.end + (text.word(first.end) == "'s")
     start = at
@@ -426,7 +377,7 @@ def answer(text: Text, at: int, scope: Scope) -> Found:
     if _LETTERS.intersection(text.words[start:end]):
         raise NotUnderstood("I can answer questions that I am asked, not messages or calls")
     if text.word(end) == FULL_STOP and text.word(end + 1) == "to":
-        listener = _listener(text, end + 2, scope)
+        listener = listener_at(text, end + 2, scope)
         if listener:
             person, end = to_person(listener, scope), listener.end
     return [Answer(what="question", person=person)], end
@@ -450,7 +401,7 @@ def _asker(text: Text, at: int, scope: Scope, person: Person | None) -> tuple[Pe
     end = at
     while text.word(end) in skipped:
         end += 1
-    phrase = _listener(text, end, scope)
+    phrase = listener_at(text, end, scope)
     if phrase and end == at and text.word(phrase.end) not in ("has", "have", "asks", "is"):
         phrase = None
     if phrase is None:

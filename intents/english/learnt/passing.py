@@ -17,6 +17,7 @@ from intents.english.words.dictionary import is_english
 from intents.english.words.limits import CONDITIONS, DENIALS, MEASURES, TIMES
 from intents.english.words.measures import NUMBER_WORDS
 from intents.english.words.names import NameIndex
+from intents.english.words.reporting import reports
 from intents.english.words.verbs import verbs_at
 
 _SURE = 0.8
@@ -56,7 +57,7 @@ _ARTICLES = lexicon.words("the a an some")
 _TELLING = lexicon.words(
     "i we he she they who already never always say says said told to not didn't don't would will"
 )
-"""Ahead of an order these make of it what somebody does, did or said."""
+"""Ahead of an order these make of it what somebody does, did or said: "I already put it there"."""
 _EVENTS = ("as soon as ", "every time ", "each time ", "the moment ", "the minute ", "save for ",
            "apart from ", "other than ", "whenever ", "any time ", "once i ", "once he ",
            "once she ", "once they ", "once we ", "once the ", "once it ", "until ")  # fmt: skip
@@ -249,7 +250,7 @@ def _harms(text: str, span: Passed, index: NameIndex) -> dict[str, float]:
         "how": NEVER if short and first in _HOW else 0.0,
         "order": NEVER if any(is_order(heard) for is_order in _ORDERS) or _turns(words) else 0.0,
         "corrects": NEVER if _corrects(heard, index) else 0.0,
-        "told": NEVER if goes_on and words[-1] in _TELLING else 0.0,  # "I already put it there"
+        "told": NEVER if goes_on and (words[-1] in _TELLING or reports(heard)) else 0.0,
         "event": NEVER if f"{' '.join(heard)} ".startswith(_EVENTS) else 0.0,
         "grave": NEVER if _picks_out(heard, short=short) else 0.0,
         "quoted": NEVER if not _QUOTES.isdisjoint(text[span.start : span.end]) else 0.0,

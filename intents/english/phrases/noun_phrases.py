@@ -23,7 +23,7 @@ _EXCEPT = lexicon.phrases(
     "except,except for,apart from,other than,excluding,save for,aside from,"
     "with the exception of,not counting,leaving out,different from,different to,different than"
 )
-_BUT = lexicon.words("but bar barring save")
+_BUT = lexicon.words("but")
 """Behind "all" and "everything" alone: a bar is a place as well."""
 _IS = lexicon.words("is are was were")
 _OF_A_PART = ("on", "at")

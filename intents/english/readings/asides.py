@@ -49,6 +49,8 @@ _KEEPS_AWAY = lexicon.phrases(
     "keep clear of,steer clear of,keep your distance from,keep your hands off,stay outside,"
     "keep well away from,do not go near,do not go into,do not go in,do not enter,do not come near"
 )
+_PUTS = lexicon.words("put place set lay stow store stand drop dump stash stick shove")
+_ONTO = lexicon.words("on onto in into to under behind beside near at inside")
 _SAFE = lexicon.words(
     "spill spilling drop dropping break breaking hit hitting bump bumping anything hurt scratch "
     "wake worry rush forget fall falling noise mess just fuss dawdle dilly hurry stumble trip "
@@ -166,12 +168,24 @@ def forbidden(sentence: Sentence, at: int) -> Found | None:
         return None  # no milk there? That asks
     if end == start or (text.word(at) == "no" and not is_content(text, start)):
         return None
-    _mention(sentence, start, end, described=True)
+    onto = _onto(text, start, end)
+    _mention(sentence, start, onto or end, described=onto is None)
     if not _SAFE.intersection(said):
-        names = _names(text, start, end)
+        names = _names(text, onto or start, end)
         found = Forbidden(text.raw(at, end), names, away is not None, _how(text, start, end, names))
         sentence.notes.forbidden.append(found)
     return [], end
+
+
+def _onto(text: Text, start: int, end: int) -> int | None:
+    """Don't put the cup *on the shelf*: it may be put elsewhere, and is not there."""
+    if text.word(start) not in _PUTS:
+        return None
+    named = (n for n in range(start + 1, end - 1) if text.name_at(n))
+    thing = next(named, None)
+    match = text.name_at(thing) if thing is not None else None
+    behind = range(match.end, end - 1) if match and match.of("object", "category") else range(0)
+    return next((n for n in behind if text.word(n) in _ONTO), None)
 
 
 def _before_order(text: Text, start: int, end: int) -> int:

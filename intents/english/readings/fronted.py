@@ -58,7 +58,14 @@ def fronted(sentence: Sentence, at: int) -> Found | None:
                 mention_phrase(phrase, scope)
     apart = text.word(end) in (COMMA, FULL_STOP)
     things = [first] if first.role == "" and _leaves_out(text, after, apart=apart) else []
+    if things and first.phrase.is_person and not apart and _is_all(text, after):
+        return None  # the children take: what they do
     return read_verb(sentence, after, [*things, *(c for c in complements if c.role)])
+
+
+def _is_all(text: Text, at: int) -> bool:
+    """Whether a verb is the last that is said."""
+    return any(text.word(end) in (COMMA, FULL_STOP) for _, end in verbs_at(text.words, at))
 
 
 def in_pieces(sentence: Sentence, at: int) -> Found | None:

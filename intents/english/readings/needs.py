@@ -20,6 +20,7 @@ from intents.english.reading import Found, Sentence
 from intents.english.trouble import Unclear
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import Answer, Bring, GoTo, Guide, Open
 
@@ -71,13 +72,20 @@ def lost(sentence: Sentence, at: int) -> Found | None:
     text = sentence.text
     start = text.phrase_end(_LOST, at)
     phrase = noun_phrase(text, start) if start else None
-    if phrase is None or phrase.said in SOMETHING:
+    if phrase is None or phrase.said in SOMETHING or _is_nothing(text, phrase.start):
         return None
     end = phrase.end
     end += text.word(end) in ("is", "are") and text.word(phrase.start - 1) == "where"
     end += text.word(end) in ("anywhere", "anymore")
     sentence.notes.wanted = True
     return [sought(phrase, sentence.scope)], end
+
+
+def _is_nothing(text: Text, at: int) -> bool:
+    """I can not see *a thing*: nothing at all."""
+    thing = at + 1 + (text.word(at + 1) in ("single", "bloody", "damn"))
+    closes = text.word(thing + 1) in (COMMA, FULL_STOP, "in", "here", "there")
+    return text.word(at) in ("a", "one") and text.word(thing) == "thing" and closes
 
 
 def looked_for(sentence: Sentence, at: int) -> Found | None:

@@ -3,6 +3,8 @@
 "Dump *me* socks in the basket" (my), "put *them* scissors there" (those), "next *of* the printer"
 (to), "*what you are* holding" (what are you). Each is turned into the word that the grammar knows,
 where the words around it leave no other sense.
+
+[Aikhenvald2006] A. Aikhenvald, Serial verb constructions in typological perspective, OUP, 2006.
 """
 
 from intents.english.words import lexicon
@@ -44,7 +46,11 @@ _PREPOSITIONS: dict[lexicon.Phrase, lexicon.Phrase] = {
     ("wey", "dey", "on"): ("that", "is", "on"),
     ("wey", "dey", "in"): ("that", "is", "in"), ("wey", "dey"): ("that", "is", "in"),
     ("that", "there"): ("that",), ("this", "here"): ("this",), ("them", "there"): ("those",),
-    ("unto",): ("to",), ("remain", "on", "one"): ("stand", "on", "one"),
+    ("inquire", "of"): ("ask",), ("enquire", "of"): ("ask",), ("find", "out", "from"): ("ask",),
+    ("check", "with"): ("ask",), ("unto",): ("to",), ("thou",): ("you",), ("thee",): ("you",),
+    ("thy",): ("your",),
+    ("shalt",): ("shall",), ("wilt",): ("will",), ("canst",): ("can",), ("dost",): ("do",),
+    ("remain", "on", "one"): ("stand", "on", "one"),
     ("stay", "on", "one"): ("stand", "on", "one"), ("keep", "on", "one"): ("stand", "on", "one"),
 }  # fmt: skip
 _LONGEST = 6
@@ -53,6 +59,9 @@ _THIRD = {"want": "wants", "need": "needs", "require": "requires", "ask": "asks"
 _ASKED_WITH = lexicon.words("do does did can could will would let make if and or to help")
 """Behind one of these a verb has no ending."""
 _HANDING = lexicon.words("bring give take fetch get hand carry")
+_CARRYING = lexicon.words("carry bring take send move follow lead guide")
+_BEFORE_GO = lexicon.words("to let and then please will can must you i we")
+_LINKS = lexicon.words(", . and then")
 _ASK = lexicon.words("what where why how")
 _BEFORE_SUBJECTS = lexicon.words("are were have can could will do did should must")
 """What stands before its subject in a question."""
@@ -61,7 +70,7 @@ _SEEING = lexicon.words("see have find hold carry")
 
 def in_standard_words(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens with the words of the grammar in place of those of a dialect."""
-    tokens = _agreeing(_linked(_prepositions(_handled(tokens))), index)
+    tokens = _agreeing(_carried(_linked(_prepositions(_handled(tokens))), index), index)
     words = [t.text for t in tokens]
     for at, token in enumerate(tokens):
         owner, gives = _OWNERS.get(token.text, ("", _GIVES_ME))
@@ -94,6 +103,19 @@ def _linked(tokens: list[Token]) -> list[Token]:
         else token
         for token, after in zip(tokens, [*tokens[1:], Token("a", "")], strict=False)
     ]
+
+
+def _carried(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """Carry the towels *go* room twelve: to, where one verb follows the other [Aikhenvald2006]."""
+    words = [t.text for t in tokens]
+    for at in range(2, len(words) - 1):
+        match = index.match(words, at + 1) if words[at] == "go" else None
+        spot = match is not None and match.of("place", "room")
+        begin = max((n + 1 for n in range(at) if words[n] in _LINKS), default=0)
+        carries = begin < at and words[begin] in _CARRYING and words[at - 1] not in _BEFORE_GO
+        if spot and carries:
+            tokens[at] = Token("to", tokens[at].raw)
+    return tokens
 
 
 def _agreeing(tokens: list[Token], index: NameIndex) -> list[Token]:

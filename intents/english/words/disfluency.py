@@ -63,6 +63,7 @@ _BROKEN_OFF = lexicon.words("that to on onto in into from at with for the a an")
 """What nothing can end with."""
 _PRONOUNS = lexicon.words("him her them it")
 _CLAUSES = lexicon.words("and then but so or if not")
+_ASKING = lexicon.words("how where what which who when why")
 _MOST_LOST = 3
 _FAR = 8
 _LONGEST_ECHO = 4
@@ -281,7 +282,8 @@ def _renamed(tokens: list[Token], index: NameIndex) -> list[Token]:
 def _begun_alike(words: list[str], at: int, end: int) -> int | None:
     """Where the clause begins that is begun again behind a marker with its verb."""
     closes = next((n for n in range(end, len(words)) if words[n] in _SIGNS), len(words))
-    if words[end : end + 1] == [] or words[end] not in FIRST_WORDS:
+    begins = words[end : end + 1]
+    if not begins or begins[0] not in FIRST_WORDS | _ASKING:
         return None
     if not _TAKEN_UP.isdisjoint(words[end:closes]):
         return None  # the cup, no, take *it* there

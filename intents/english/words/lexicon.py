@@ -241,7 +241,10 @@ FILLERS = phrases(
     "as fast as you can,as quick as you can,as quickly as you can,"
     "forthwith,this second,this instant,at the double,on the double,stat,pronto,sharpish,urgently,"
     "quick quick,quick smart,double quick,in a jiffy,without delay,"
-    "as fast as possible,as quickly as possible,quick as you can"
+    "as fast as possible,as quickly as possible,quick as you can,"
+    "and nobody else,and no one else,and to nobody else,and to no one else,and not to anybody else,"
+    "and not to anyone else,and no other person,and to no other person,and nowhere else,"
+    "and nothing else"
 ) | {(",", "like", ",")}
 """Words that can be dropped wherever they stand."""
 _OPENINGS = phrases(

@@ -23,6 +23,12 @@ TAKES_BACK = lexicon.phrases(
 )
 """What is said before what is meant instead."""
 _MARKERS = TAKES_BACK | lexicon.phrases("no no,sorry no,no make it,no better,excuse me")
+_CRIES = lexicon.words("ah oh hm hmm er uh um ach och aw ay oops whoops")
+_REGRETS = lexicon.words("excuse pardon forgive apologies")
+_SAID_WITH = _CRIES | _REGRETS | lexicon.words("no sorry wait please me my i mean meant beg your")
+"""What is said around a "no" that takes something back."""
+_SPOTS = lexicon.words("to in on into onto at")
+"""Before one of these no thing of a list begins: what comes is said anew."""
 _PAUSES = lexicon.phrases("wait,hold on,hang on")
 """Between commas, before a direction alone, these are markers, and else orders."""
 _ORDERS = lexicon.phrases("cancel,scratch,scrap,delete,strike,say,make it,let us say,call it")
@@ -56,6 +62,23 @@ class _Said(NamedTuple):
     kind: str
     start: int
     end: int
+
+
+def as_one_marker(tokens: list[Token]) -> list[Token]:
+    """The tokens with ", no," for what is said around it: ", ah no, excuse me please, to Ada"."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 3, 0, -1):
+        if words[at] != COMMA:
+            continue
+        end, said = at + 1, set[str]()
+        while end < len(words) and words[end] in _SAID_WITH | {COMMA}:
+            said.add(words[end])
+            end += 1
+        regrets = not _REGRETS.isdisjoint(said) or ("no" in said and not _CRIES.isdisjoint(said))
+        if regrets and end < len(words) and words[end] in _SPOTS:
+            mark = [Token(COMMA, ","), Token("no", "no"), Token(COMMA, ",")]
+            return as_one_marker([*tokens[:at], *mark, *tokens[end:]])
+    return tokens
 
 
 def repaired(tokens: list[Token]) -> list[Token]:

@@ -5,8 +5,9 @@ from collections.abc import Collection, Mapping
 from copy import copy
 from typing import TypeVar
 
-from intents.english.words.asked_conditions import conditional_questions
+from intents.english.words.asked_conditions import being_there, conditional_questions
 from intents.english.words.asking import plainly_asked
+from intents.english.words.contrasts import but_this
 from intents.english.words.courtesy import ADDRESSES, courtesy_end
 from intents.english.words.dialects import in_standard_words
 from intents.english.words.disfluency import fluent, unrepeated
@@ -31,7 +32,7 @@ from intents.english.words.notes import in_sentences
 from intents.english.words.particles import without_particles
 from intents.english.words.pauses import pauses_as_waits
 from intents.english.words.precise import plain_quantities
-from intents.english.words.repairs import repaired
+from intents.english.words.repairs import as_one_marker, repaired
 from intents.english.words.singling_out import singled_out
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
 from intents.english.words.superlatives import listed_superlatives
@@ -39,7 +40,7 @@ from intents.english.words.texting import spelled_out
 from intents.english.words.titles import without_titles
 from intents.english.words.verbs import FIRST_WORDS, participle_base, verbs_at
 from intents.english.words.ways import hauled, in_order, laid, led, tells_first
-from intents.english.words.whatever import all_there_is
+from intents.english.words.whatever import all_but, all_there_is
 from intents.english.words.whereabouts import whereabouts
 from intents.vocabulary import Vocabulary
 
@@ -111,6 +112,7 @@ class Text:
         words: Their lower-case texts.
         index: The names of the vocabulary.
         corrections: What was written, and what it was taken for.
+        asks: It ends with a question mark.
         polite: "Please" was said, so something is asked for.
         pace: How fast things are to be done, as it was said; empty if nothing was.
         manners: Whether they are to be done at once, without an end or later, as it was said.
@@ -129,6 +131,7 @@ class Text:
         begins = True
         pace = _PACE.search(text)
         self.pace = pace.group().strip() if pace else ""
+        self.asks = text.rstrip(" \"'”)").endswith("?")
         self.polite = any(token.text in _POLITE for token in tokens)
         for token in tokens:
             meant = speller.correct(token.text, begins=begins)
@@ -146,15 +149,15 @@ class Text:
         ]  # fmt: skip
         corrected, alike = as_meant(corrected, self.index)
         self.corrections += alike
-        corrected = _wished(pauses_as_waits(plain_quantities(repaired(corrected))))
-        corrected = all_there_is(corrected)
+        corrected = _wished(pauses_as_waits(plain_quantities(repaired(as_one_marker(corrected)))))
+        corrected = but_this(all_but(all_there_is(corrected)))
         corrected = plainly_asked(without_titles(corrected, self.index), self.index)
         self.manners: list[Manner]
         corrected, self.manners = manners(corrected)
         flowing = led(laid(whereabouts(fluent(corrected, self.index), self.index)))
         ordered = in_order(hauled(flowing, self.index), self.index)
         plain = singled_out(_without_fillers(ordered, self.index), self.index)
-        plain = _unfinished(unrepeated(conditional_questions(plain, self.index)))
+        plain = _unfinished(unrepeated(being_there(conditional_questions(plain, self.index))))
         plain = _colloquial(in_standard_words(plain, self.index))
         self.tokens: list[Token] = uninverted(left_behind(plain))
         self.words: list[str] = [t.text for t in self.tokens]

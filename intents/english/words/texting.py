@@ -45,7 +45,8 @@ _SHORT_FORMS = {
         # nouns and the like
         ("something", "smth sth sumthin sumthing somethin"), ("somebody", "some1 sum1"),
         ("anybody", "any1"), ("nobody", "no1"), ("everybody", "every1"), ("people", "ppl"),
-        ("mate", "m8"), ("little", "lil"), ("good", "gud"), ("great", "gr8"), ("night", "nite"),
+        ("mate", "m8"), ("little", "lil smol"), ("big", "chonky"), ("good", "gud"),
+        ("great", "gr8"), ("night", "nite"),
         ("light", "lite"), ("today", "2day"), ("tonight", "2nite tonite"), ("later", "l8r l8er"),
         ("tomorrow", "2moro 2morrow tmrw tmw"), ("really", "rly rlly"), ("thing", "thang"),
         # set phrases

@@ -1,0 +1,108 @@
+"""To whom something is said: "tell Ada, Leo and Emil that ...", "say good night to Emil"."""
+
+from intents.english.clauses.markers import marker_end
+from intents.english.phrases.noun_phrases import noun_phrase
+from intents.english.phrases.phrase import NounPhrase
+from intents.english.phrases.referents import Scope, is_person, to_person
+from intents.english.trouble import NotUnderstood, Unclear
+from intents.english.words import lexicon
+from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE
+from intents.english.words.text import Text
+from intents.english.words.verbs import verbs_at
+from intents.goals import Person
+
+TO = lexicon.words("to for with")
+"""What may stand before a listener."""
+_QUESTION_WORDS = lexicon.words("question questions quiz quizzes query queries")
+_MESSAGE_BEGINS = lexicon.words("that to about if whether how what where when why who , .")
+"""What stands between a listener and what is to be told."""
+_SENDERS = (["for", "me"], ["for", "us"])
+_TO_SOMEBODY = lexicon.words(
+    "went go gone going gave give given spoke talk talked brought sent told"
+)
+"""What somebody does who tells of it: "I went to Leo" is not said to Leo."""
+_OF_THEM = lexicon.words("he she they it we i because since as cause so and")
+
+
+def listeners(text: Text, at: int, scope: Scope) -> list[NounPhrase]:
+    """The people that are named one after the other at a word: "Ada and Leo", "Ada, Leo and Emil".
+
+    Behind a comma somebody is named as well only where the list ends with "and".
+    """
+    found: list[NounPhrase] = []
+    ends, last = 0, ""
+    while (phrase := listener_at(text, at, scope)) is not None:
+        if found and not phrase.name("person"):
+            break
+        found.append(phrase)
+        ends = len(found) if last != COMMA else ends
+        last = text.word(phrase.end)
+        if not phrase.name("person") or last not in ("and", COMMA):
+            break
+        at = phrase.end + 1
+    return found[:ends]
+
+
+def listener_at(text: Text, at: int, scope: Scope) -> NounPhrase | None:
+    """The person at a word, if one is there."""
+    if text.word(at) in ("his", "her") and text.word(at + 1) in _QUESTION_WORDS:
+        return None
+    if text.word(at) == "where":
+        return None
+    phrase = noun_phrase(text, at)
+    return phrase if phrase and is_person(phrase, scope) else None
+
+
+def last_listener(text: Text, at: int, end: int, scope: Scope) -> tuple[Person | None, int]:
+    """The person after the last "to", and where the words before it end."""
+    for to in range(end - 2, at - 1, -1):
+        if text.word(to) in TO:
+            phrase = listener_at(text, to + 1, scope)
+            if phrase and phrase.end >= end:
+                return to_person(phrase, scope), to
+    return None, end
+
+
+def meant_listener(text: Text, first: NounPhrase, scope: Scope) -> NounPhrase:
+    """Tell Ada, *no, Leo*, that ...: who is told in the end."""
+    marked = marker_end(text, first.end + 1) if text.word(first.end) == COMMA else None
+    other = listener_at(text, marked, scope) if marked else None
+    if other is None or text.word(other.end) not in (COMMA, "that", QUOTE, FULL_STOP):
+        return first
+    other.end += text.word(other.end) == COMMA
+    return other
+
+
+def refuse_more(text: Text, at: int) -> None:
+    """Tell Julia *and somebody*: no message begins so.
+
+    Raises:
+        Unclear: Nothing is said that is to be told.
+        NotUnderstood: It is to be told to somebody as well whom nobody knows.
+    """
+    if verbs_at(text.words, at + 1):
+        raise Unclear("What shall I tell?")
+    end = next((n for n in range(at + 1, len(text)) if text.word(n) in _MESSAGE_BEGINS), at + 2)
+    raise NotUnderstood(f"I do not know who “{text.raw(at + 1, end)}” is")
+
+
+def addressed_end(text: Text, at: int, end: int, scope: Scope) -> tuple[int, int] | None:
+    """Happy birthday *to Grandma*, she is eighty; good night *to Leo from me*.
+
+    Where the listener's name ends, and where what belongs to it ends; None if words follow that
+    may well be part of what is to be said.
+    """
+    went = at
+    while went < end and text.word(went) not in _TO_SOMEBODY:
+        went += 1
+    for to in range(at + 1, went if text.word(at) in _OF_THEM else end):
+        phrase = listener_at(text, to + 1, scope) if text.word(to) == "to" else None
+        if phrase is None or not phrase.name("person"):
+            continue
+        after = phrase.end + 2 * (text.words[phrase.end : phrase.end + 2] in _SENDERS)
+        while text.word(phrase.end) == "from" and text.word(after) not in (COMMA, FULL_STOP):
+            after += 1  # from all of us
+        aside = text.word(after) == COMMA and text.word(after + 1) in _OF_THEM
+        if after > phrase.end or aside:
+            return phrase.end, after
+    return None
