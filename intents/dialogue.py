@@ -48,6 +48,7 @@ from intents.swaps import focused, is_alike, swap
 from intents.the_rest import is_rest, with_the_rest
 from intents.undoing import is_back, is_things_back, is_undo, is_undo_of_several, undone
 from intents.vocabulary import Vocabulary
+from intents.wording import sentence_case
 
 __all__ = ["Context", "Dialogue"]
 
@@ -237,7 +238,7 @@ class Dialogue:
             after = replace(before, goals=other, question=None)
             too_much = excess(other)
             if too_much:
-                return Refusal(reason=f"{too_much[:1].upper()}{too_much[1:]}."), before
+                return Refusal(reason=f"{sentence_case(too_much)}."), before
             return Goals(goals=other, elliptic=True), after
         found = swap(text) if opened is None or small_questions.is_halt(opened) else None
         about = focused(before, found.old) if found else None

@@ -10,7 +10,6 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from intents.allowed import excess
 from intents.bounds import loosened, tells, unkept
 from intents.caution import cautious
 from intents.context import Context, answered, completed
@@ -25,24 +24,16 @@ from intents.english.trouble import (
     Unclear,
     Unpromised,
     Unread,
-    listing,
 )
 from intents.english.words import lexicon
-from intents.english.words.lexer import singular, tokenize
 from intents.english.words.names import index_of
 from intents.english.words.text import Text
-from intents.goals import Cancel, Goal, LookAt, ObjectQuery, Stop, Wait
+from intents.goals import LookAt, Stop, Wait
 from intents.grammar import read
 from intents.grounding import (
-    Ambiguous,
-    Entity,
     Grounded,
-    Unknown,
-    by_where,
-    describe_entity,
     ground,
     narrowed,
-    queries,
 )
 from intents.halting import is_insistent
 from intents.languages import language_of, only_english
@@ -52,12 +43,13 @@ from intents.second_look import Attempt, just_that, remarked, second_look
 from intents.stopping import is_stop
 from intents.third_look import third_look
 from intents.vocabulary import Vocabulary
+from intents.what_is_there import of_what_is_there
+from intents.wording import sentence_case
 
 Fallback = Callable[[str, Vocabulary, Context], Outcome | None]
 """Asked for what the grammar does not understand; None if it has nothing to say either."""
 __all__ = ["MAX_CHARACTERS", "Fallback", "asks_to_stop", "hear", "is_stop", "parse"]
 
-_ONE_OF = lexicon.words("one a an any either which")
 _ASKING = lexicon.words(
     "what which who whose whom where when why how is are am was were do does did can have has"
 )
@@ -152,7 +144,9 @@ def _hear(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
             scope = Scope(index_of(vocabulary), context.object, context.person, context.place)
             for goal in goals:
                 scope.mention_goal(goal)
-            return _settled(_as_asked(_checked(text, goals, context), context), context, scope)
+            return _settled(
+                _as_asked(of_what_is_there(text, goals, context), context), context, scope
+            )
     foreign = language_of(text)
     if foreign:
         return Refusal(reason=only_english(foreign), puzzled=True), context
@@ -230,7 +224,7 @@ def _pointed_out(
     scope = Scope(index_of(vocabulary), context.object, context.person, context.place)
     for goal in goals:
         scope.mention_goal(goal)
-    return _settled(_as_asked(_checked(text, goals, context), context), context, scope)
+    return _settled(_as_asked(of_what_is_there(text, goals, context), context), context, scope)
 
 
 def _as_asked(outcome: Outcome, context: Context) -> Outcome:
@@ -274,7 +268,7 @@ def _second_opinion(
     scope = Scope(index_of(vocabulary), context.object, context.person, context.place)
     for goal in other.goals:
         scope.mention_goal(goal)
-    checked = _checked(text, other.goals, context)
+    checked = of_what_is_there(text, other.goals, context)
     if isinstance(checked, Goals):
         checked = other
     if unkept(text, other.goals):
@@ -363,12 +357,12 @@ def first_look(text: str, vocabulary: Vocabulary, context: Context) -> Attempt:
         puzzled = not isinstance(error, Unasked)
         asks = isinstance(error, Unread) and words.word(0) in _ASKING and words.word(1) != "not"
         hint = f" {ANSWERED}" if asks else ""
-        refusal = Refusal(reason=f"{_sentence(str(error))}.{hint}", puzzled=puzzled)
+        refusal = Refusal(reason=f"{sentence_case(str(error))}.{hint}", puzzled=puzzled)
         return Attempt(refusal, context, error, only_tells(words))
     if not understood.goals:
         nothing = "I see nothing to do in that."
         return Attempt(Refusal(reason=nothing), context, Idle(nothing), only_tells(words))
-    checked = _checked(text, understood.goals, context)
+    checked = of_what_is_there(text, understood.goals, context)
     if isinstance(checked, Goals):
         checked = replace(checked, clauses=understood.clauses)
         checked = remarked(checked, *_corrected(words), *understood.remarks)
@@ -395,61 +389,3 @@ def _corrected(words: Text) -> tuple[str, ...]:
     """Which words were corrected."""
     taken = ", ".join(f"“{said}” for “{meant}”" for said, meant in words.corrections)
     return (f"I took {taken}",) if taken else ()
-
-
-def _checked(text: str, goals: tuple[Goal, ...], context: Context) -> Outcome:
-    """Ask which is meant, or refuse what is not there, where it is known what is there."""
-    too_much = excess(goals)
-    if too_much:
-        return Refusal(reason=f"{_sentence(too_much)}.")
-    if not context.entities or any(isinstance(g, Cancel) for g in goals):
-        return Goals(goals=goals)
-    by_id = {e.id: e for e in context.entities}
-    for query in queries(goals):
-        found = ground(query, context.entities, view=context.view)
-        if isinstance(found, Unknown):
-            return Refusal(reason=f"{_sentence(found.reason)}.")
-        if isinstance(found, Ambiguous) and (short := _too_few(query, found, by_id)):
-            return Refusal(reason=short)
-        if isinstance(found, Ambiguous) and _several(text, query):
-            goals = tuple(substitute(goal, query, replace(query, count="all")) for goal in goals)
-        elif isinstance(found, Ambiguous) and by_where(query) and _unseen(found, by_id):
-            continue  # whoever goes and looks will know
-        elif isinstance(found, Ambiguous):
-            choices = tuple(
-                Choice(label=label, query=narrowed(query, by_id[i]))
-                for label, i in zip(found.labels, found.candidates, strict=True)
-            )
-            return Question(
-                question=found.question, choices=choices, goals=goals, about=query, text=text,
-                kind="choice",
-            )  # fmt: skip
-    return Goals(goals=goals)
-
-
-def _too_few(query: ObjectQuery, found: Ambiguous, by_id: dict[str, Entity]) -> str:
-    """That there are not so many as are asked for; empty if there are, or that is not known."""
-    number = len(found.candidates)
-    if not isinstance(query.count, int) or query.count <= number:
-        return ""
-    named = [f"a {describe_entity(by_id[i])}" for i in found.candidates]
-    return f"There are only {number} of them, not {query.count}: {listing(named, 'and')}."
-
-
-def _unseen(found: Ambiguous, by_id: dict[str, Entity]) -> bool:
-    """Whether it is not known of all that may be meant where they are."""
-    return not all(by_id[i].p_WO or by_id[i].held for i in found.candidates)
-
-
-def _several(text: str, query: ObjectQuery) -> bool:
-    """Whether a description was said in the plural: "the cups", not "one of the cups"."""
-    noun = query.name or query.category
-    if query.count is not None or not noun:
-        return False
-    said = [token.text for token in tokenize(text)]
-    plural = [word for word in said if word != singular(word)]
-    return not _ONE_OF.intersection(said) and noun.split()[-1] in map(singular, plural)
-
-
-def _sentence(text: str) -> str:
-    return text[:1].upper() + text[1:]

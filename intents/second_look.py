@@ -32,7 +32,7 @@ from intents.english.words import lexicon
 from intents.english.words.names import NameIndex
 from intents.goals import Answer, Count, Find, Goal, If, LookAt, Report, Tell, each
 from intents.outcomes import YES_OR_NO, Goals, Outcome, Question, Refusal
-from intents.wording import in_words
+from intents.wording import in_words, sentence_case
 
 DOUBTFUL, RIVAL = 0.05, 0.3
 """What the grammar reads from every word is given up only where it is less likely than the first,
@@ -277,7 +277,7 @@ def just_that(text: str, partly: Partly) -> Question:
     just = "" if isinstance(partly, Offered) else "just "
     reason = str(partly)
     return Question(
-        question=f"{reason[:1].upper()}{reason[1:]}. Shall I {just}{in_words(partly.goals)}?",
+        question=f"{sentence_case(reason)}. Shall I {just}{in_words(partly.goals)}?",
         choices=YES_OR_NO,
         goals=partly.goals,
         text=text,

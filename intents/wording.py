@@ -28,6 +28,11 @@ _REPORTS = {
 _PLAIN = {g.Stop: "stop", g.Pause: "pause", g.Resume: "go on", g.Cancel: "give the task up"}
 
 
+def sentence_case(text: str) -> str:
+    """A text with a capital at its beginning."""
+    return text[:1].upper() + text[1:]
+
+
 def in_words(goals: Iterable[Goal]) -> str:
     """What would be done, in one sentence without a full stop."""
     return ", then ".join(_goal(goal) for goal in goals) or "do nothing"
