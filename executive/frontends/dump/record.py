@@ -131,11 +131,11 @@ def _finish(process: subprocess.Popen[bytes], path: Path) -> None:
 
     A signal within `PATIENCE_S` may be the wish that ended the run, passed on by the launcher.
     """
-    if process.stdin is not None:
-        process.stdin.close()
     clock = WallClock()
     begun_s = clock.now_s()
     with Ending(clock) as ending, Screen(err=True).status(f"finishing {path.name}"):
+        if process.stdin is not None:  # that tells it; from here on signals are heard
+            process.stdin.close()
         while (failed := process.poll()) is None:
             waited_s = clock.now_s() - begun_s
             if waited_s > FINISH_S:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import io
-import os
 import signal
 import subprocess
 import sys
-import threading
+from types import SimpleNamespace
 
 import msgspec
 import pytest
@@ -18,6 +17,7 @@ from executive.frontends.dump.recording import Recording, follow
 from executive.frontends.ending import Ending
 from executive.journal import journal, motion
 from executive.journal.motion import Moment
+from robot.clock import WallClock
 from robot.errors import ConfigError
 from robot.exit_status import ExitStatus
 from tests.fakes.waiting import HANG_S
@@ -192,10 +192,29 @@ def test_the_wish_that_ended_a_run_comes_again_and_its_recording_is_waited_for(f
     assert "background" not in capsys.readouterr().err
 
 
+def test_a_wish_in_the_moment_in_which_its_recorder_is_told_is_heard(folder):
+    class Recorder:
+        stdin = SimpleNamespace(close=lambda: signal.raise_signal(signal.SIGINT))
+
+        def poll(self) -> int:
+            return 0
+
+    try:
+        record._finish(Recorder(), folder / "recorded.mcap")  # type: ignore[arg-type]
+    except KeyboardInterrupt:
+        pytest.fail("nobody has heard it")
+
+
 def test_who_does_not_want_to_wait_for_a_recording_leaves_it_behind(folder, capsys, monkeypatch):
     monkeypatch.setattr(record, "PATIENCE_S", 0.0)
     process = subprocess.Popen(["sleep", str(HANG_S)], stdin=subprocess.PIPE)
-    threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)).start()
+    sleep_until = WallClock.sleep_until
+
+    def press_and_sleep(clock: WallClock, time_s: float) -> None:
+        signal.raise_signal(signal.SIGINT)  # while it waits: it hears signals by then
+        sleep_until(clock, time_s)
+
+    monkeypatch.setattr(WallClock, "sleep_until", press_and_sleep)
     try:
         record._finish(process, folder / "recorded.mcap")
         assert process.poll() is None
@@ -218,7 +237,9 @@ def test_a_file_that_is_there_is_never_written_over(folder):
 def test_a_full_disk_is_said(folder):
     grow(folder, journal.FILE, b"".join(LINES))
     grow(folder, motion.FILE, b"".join(MOVES))
-    command = f"ulimit -f 1; exec {sys.executable} -m executive record {folder} -o {folder}/x.mcap"
+    # -B: a half of a module's bytecode is taken for the whole by whoever imports it next
+    program = f"{sys.executable} -B -m executive"
+    command = f"ulimit -f 1; exec {program} record {folder} -o {folder}/x.mcap"
     ran = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
     assert ran.returncode == 2
     assert "x.mcap: cannot be written" in ran.stderr
