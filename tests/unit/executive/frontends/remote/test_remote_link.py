@@ -65,6 +65,7 @@ class Network:
     Attributes:
         is_dead: nothing arrives.
         open: what goes to the gate arrives; else once it is set again.
+        answers: how many pieces came from the gate.
     """
 
     def __init__(self, port):
@@ -72,6 +73,7 @@ class Network:
         self._listening = socket.create_server(("127.0.0.1", 0))
         self.port = self._listening.getsockname()[1]
         self.is_dead = False
+        self.answers = 0
         self.open = threading.Event()
         self.open.set()
         self._ends: list[socket.socket] = []
@@ -89,10 +91,12 @@ class Network:
     def _pass(self, one, other):
         with suppress(OSError):
             while data := one.recv(1 << 16):
-                if other.getpeername()[1] == self._port:
+                is_asked = other.getpeername()[1] == self._port
+                if is_asked:
                     self.open.wait()
                 if not self.is_dead:  # nobody is told
                     other.sendall(data)
+                    self.answers += not is_asked
             other.shutdown(socket.SHUT_WR)
 
     def cut(self):
@@ -156,12 +160,36 @@ class House:
             yield place, words
 
 
+LIMITS = {
+    (ties, "LOST_S"): wire.LOST_S,
+    (relays, "SILENT_S"): relays.SILENT_S,
+    (relays, "CONNECT_S"): relays.CONNECT_S,
+    (gates, "SHAKE_S"): gates.SHAKE_S,
+}
+"""How long a link may be silent, by either end; how long it may take to begin."""
+
+
 @pytest.fixture
 def house(tmp_path, monkeypatch):
+    """Whose links are lost on request alone: a busy machine is silent for a third of a second."""
     monkeypatch.setenv("XDG_RUNTIME_DIR", "")
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    for where, name in LIMITS:
+        monkeypatch.setattr(where, name, HANG_S)
     with House(tmp_path) as made:
         yield made
+
+
+def lose(house, how, monkeypatch):
+    """Break the links, so that both ends are told, or so that they have to notice by themselves."""
+    if how == "cut":
+        house.network.cut()
+        return
+    for (where, name), usual_s in LIMITS.items():
+        monkeypatch.setattr(where, name, usual_s)
+    before = house.network.answers  # whoever waits for the next beat waits as long as usual
+    assert eventually(lambda: house.network.answers > before + 1)
+    house.network.is_dead = True
 
 
 def ask(place, request):
@@ -220,9 +248,7 @@ def test_a_stop_covers_what_was_asked_for_before_it_and_comes_after_it(house):
         assert house.told.did == ["stop", "go to the table (0)", "go to the shelf (1)"]
 
 
-def test_a_stop_covers_what_is_under_way_over_a_slow_link(house, monkeypatch):
-    monkeypatch.setattr(ties, "LOST_S", HANG_S)
-    monkeypatch.setattr(relays, "SILENT_S", HANG_S)
+def test_a_stop_covers_what_is_under_way_over_a_slow_link(house):
     robot = next(one for one in places.places_up() if one.name == "robot")
     with house.visited() as (place, _), Connection(place) as anna:
         anna.ask(m.Status(), lambda told: None, wait_s=HANG_S)
@@ -260,29 +286,23 @@ def test_a_robot_is_not_ended_from_afar_and_nobody_waits_for_that(house, monkeyp
 
 
 @pytest.mark.parametrize("how", ["cut", "dead"])
-def test_a_lost_link_stops_what_came_by_it(house, how):
+def test_a_lost_link_stops_what_came_by_it(house, how, monkeypatch):
     with house.visited() as (place, _):
         ask(place, m.Say(text="go to the table"))
         house.told.did.clear()
-        if how == "dead":
-            house.network.is_dead = True
-        else:
-            house.network.cut()
+        lose(house, how, monkeypatch)
         assert eventually(lambda: len(house.told.did) == 2)
     assert house.told.did == ["goals", "stop"]
 
 
 @pytest.mark.parametrize("how", ["cut", "dead"])
-def test_a_lost_link_stops_nothing_that_came_from_elsewhere(house, how):
+def test_a_lost_link_stops_nothing_that_came_from_elsewhere(house, how, monkeypatch):
     robot = next(one for one in places.places_up() if one.name == "robot")
     with house.visited() as (place, words):
         ask(robot, m.Say(text="go to the table"))  # of somebody who stands there
         ask(place, m.Status())
         house.told.did.clear()
-        if how == "dead":
-            house.network.is_dead = True
-        else:
-            house.network.cut()
+        lose(house, how, monkeypatch)
         assert eventually(lambda: any("is lost" in text for text in words))
         house.network.is_dead = False
     assert house.told.did == []
