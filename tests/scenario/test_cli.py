@@ -44,11 +44,13 @@ def runtime(monkeypatch):
 
 
 @pytest.fixture
-def small_files():
+def small_files(monkeypatch):
     """Within it no file grows beyond so many bytes, as on a disk that is full."""
 
     @contextmanager
     def limited(most_bytes):
+        # of whose bytecode the half is taken for the whole by whoever imports it next
+        monkeypatch.setattr("sys.dont_write_bytecode", True)
         before = resource.getrlimit(resource.RLIMIT_FSIZE)
         resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, before[1]))
         try:

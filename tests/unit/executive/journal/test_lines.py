@@ -128,6 +128,7 @@ LIMITED = """
 import sys, resource
 from pathlib import Path
 from executive.journal.journal import Journal
+sys.dont_write_bytecode = True  # of which the half is taken for the whole by others
 resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
 with Journal(Path(sys.argv[1]), background=sys.argv[2] == "background") as journal:
     for n in range(500):
