@@ -204,8 +204,9 @@ def test_zenoh_listens_on_no_network(tmp_path: Path):
         for link in Path("/proc/self/fd").iterdir():
             with contextlib.suppress(FileNotFoundError):  # closed meanwhile
                 own.add(link.readlink().name)
-        return {line for line in lines if f"socket:[{line.split()[9]}]" in own}
+        inodes = {line.split()[9] for line in lines}  # what else a line says changes by itself
+        return {inode for inode in inodes if f"socket:[{inode}]" in own}
 
     before = listening()
     with ZenohBus("executive", tmp_path), ZenohBus("plant", tmp_path):
-        assert listening() == before
+        assert not listening() - before

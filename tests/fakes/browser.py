@@ -45,7 +45,8 @@ class Browser:
         told = Path(self._folder.name) / "DevToolsActivePort"
         until_s = time.monotonic() + START_S
         while time.monotonic() < until_s:
-            if told.is_file() and (lines := told.read_text().split()):
+            lines = told.read_text().split() if told.is_file() else []
+            if len(lines) == 2:
                 return f"127.0.0.1:{lines[0]}{lines[1]}"
             time.sleep(POLL_S)
         self.close()
@@ -102,7 +103,9 @@ class Devtools:
 
     def __init__(self, url: str) -> None:
         self._ends = ExitStack()
-        self._socket = self._ends.enter_context(connect(url, max_size=None, compression=None))
+        self._socket = self._ends.enter_context(
+            connect(url, max_size=None, compression=None, open_timeout=ANSWER_S, ping_interval=None)
+        )
         self._numbers = itertools.count(1)
         self.events: list[dict[str, Any]] = []
 
@@ -158,7 +161,11 @@ class Page(Devtools):
         return [json.dumps(one["params"])[:2000] for one in (*wrong, *logged)]
 
     def click(self, selector: str) -> None:
-        """Press the middle of an element with the mouse, once it rests; again if it had moved."""
+        """Press the middle of an element with the mouse, once it rests.
+
+        Again if it had moved, or if the press reached nothing: a page that was not painted yet
+        drops it.
+        """
         self.call("Page.bringToFront")
         until_s = time.monotonic() + HANG_S
         while time.monotonic() < until_s:
@@ -167,7 +174,7 @@ class Page(Devtools):
                 time.sleep(POLL_S)
                 before, at = at, self._middle(selector)
             self.eval(
-                "window.hit = undefined; addEventListener('mousedown', (event) => { window.hit ="
+                "window.hit = false; addEventListener('pointerdown', (event) => { window.hit ="
                 f" Boolean(event.target.closest({json.dumps(selector)})); }},"
                 " { capture: true, once: true })"
             )

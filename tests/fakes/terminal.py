@@ -21,6 +21,8 @@ from tests.fakes.waiting import eventually
 COLUMNS, ROWS = 100, 30
 ENTER, TAB, UP = "\r", "\t", "\x1b[A"
 CTRL_C, CTRL_D, CTRL_U = "\x03", "\x04", "\x15"
+WHERE = b"\x1b[6n"
+"""By this a program asks where the cursor is."""
 
 
 class Pty(Closing):
@@ -50,6 +52,7 @@ class Pty(Closing):
         self._reader.start()
 
     def _read(self) -> None:
+        before = b""
         while not self._closing.is_set():
             try:
                 if not self.reads or not select.select([self._main], [], [], 0.2)[0]:
@@ -59,8 +62,9 @@ class Pty(Closing):
                 if not data:
                     return
                 self._shown(data)
-                if b"\x1b[6n" in data:  # where is the cursor?
+                if WHERE in before + data:  # which may come in two pieces
                     os.write(self._main, self._where_the_cursor_is())
+                before = (before + data)[1 - len(WHERE) :]
             except OSError:
                 return
 

@@ -75,12 +75,12 @@ class Shell:
         found = []
         for entry in Path("/proc").iterdir():
             try:
-                words = (entry / "cmdline").read_bytes()
+                words = (entry / "cmdline").read_text(errors="replace").split("\0")
                 state = (entry / "stat").read_text().rpartition(")")[2].split()
             except (OSError, NotADirectoryError):
                 continue
-            if f" {self.job.pid}" in words.replace(b"\0", b" ").decode() and state[0] != "Z":
-                found.append(words.replace(b"\0", b" ").decode())
+            if str(self.job.pid) in words and state[0] != "Z":
+                found.append(" ".join(words))
         return found
 
 

@@ -690,7 +690,7 @@ def test_a_cry_that_was_heard_by_mistake_costs_a_question(shell: Shell, cry: str
 def test_a_pause_that_is_said_waits_for_a_yes(shell: Shell):
     ear = SimpleNamespace(replying=False, at_work=True, said=lambda _: None)
     talk = Conversation(shell, cast(Ear, ear), recorded=False, confirm=False)
-    shell.line("squat for 2 seconds")
+    shell.line("squat for 60 seconds")
     talk.take(Spoken(kind="sentence", text="pause"))
     assert eventually(lambda: ear.replying)
     assert eventually(lambda: shell.robot.executive.state in ("pausing", "paused"))
@@ -710,8 +710,10 @@ def test_what_is_said_after_a_cry_takes_the_place_of_what_was_halted(shell: Shel
 
 
 def test_a_correction_takes_the_place_of_what_it_corrects(shell: Shell):
+    shell.line("break look*")  # so that it is at it still, however soon it would see the cup
     shell.line("say good morning and look at the red cup")
     shell.line("no, the blue one")
+    shell.line("break off")
     shell.robot.wait()
     before, after = shell.robot.executive.jobs[-2:]
     assert before.state == "cancelled"

@@ -16,6 +16,7 @@ from robot.drivers.wiring import Wiring
 from robot.errors import ConfigError, DriverError
 from robot.model import description
 from tests.fakes.cameras import FakeCapture
+from tests.fakes.waiting import eventually
 
 ROBOT = description.load("juno")
 
@@ -31,11 +32,7 @@ def grey(value: int) -> np.ndarray:
 
 def wait_for(condition) -> None:
     """As long as it takes: a thread has to get its turn."""
-    for _ in range(2000):
-        if condition():
-            return
-        threading.Event().wait(0.01)
-    raise AssertionError("it never came")
+    assert eventually(condition)
 
 
 def test_what_is_not_read_in_time_is_dropped_the_oldest_first():

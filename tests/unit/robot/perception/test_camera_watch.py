@@ -17,6 +17,7 @@ from robot.perception import eye as eyes
 from robot.perception.camera_watch import CameraWatch
 from robot.perception.eye import AGAIN_S, Eye
 from tests.fakes.cameras import FakeCapture
+from tests.fakes.waiting import eventually
 
 RATE_HZ = 10.0
 ROBOT = description.load("juno")
@@ -111,13 +112,7 @@ def test_the_eye_tells_of_an_unplugged_camera_and_finds_it_again(rig):
     assert len(pictures.take()) == 1
     plugged["in"] = False
     capture.unplug()
-    codes = set()
-    for _ in range(200):  # the driver's thread has to get its turn
-        codes.add(step(0.0))
-        if "camera_unplugged" in codes:
-            break
-        capture_thread_turn()
-    assert "camera_unplugged" in codes
+    assert eventually(lambda: step(0.0) == "camera_unplugged")  # its thread has to get its turn
     assert step(AGAIN_S + 0.1) == "camera_unplugged"
     plugged["in"] = True
     step(AGAIN_S + 0.1)
@@ -136,10 +131,3 @@ def test_the_eye_tells_of_a_frozen_and_of_a_black_camera(rig):
         code = step(0.1)
     assert code == "camera_black"
     assert step(1.0) == "camera_late"
-
-
-def capture_thread_turn() -> None:
-    """Let other threads run."""
-    import threading
-
-    threading.Event().wait(0.01)

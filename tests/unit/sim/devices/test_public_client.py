@@ -67,8 +67,8 @@ def test_it_enables_moves_and_asks_them(served: Served):
 
 def test_a_full_queue_is_an_error_at_once_and_nothing_waits(served: Served):
     with can.Bus(interface="humanoid", channel=str(served.path)) as bus:
-        for motor in served.motors:
-            served.wire.nodes.remove(motor._node)  # nobody is there to acknowledge
+        for motor in served.motors:  # so that nobody is there to acknowledge
+            served.between_steps(lambda node=motor._node: served.wire.nodes.remove(node))
         with pytest.raises(can.CanOperationError) as caught:
             for _ in range(1000):
                 bus.send(can.Message(arbitration_id=1, data=bytes(8), is_extended_id=False))

@@ -350,6 +350,14 @@ def test_another_type_hash_is_another_topic(rig):
     assert not any(one.startswith("bow") for one in rig.told.did[len(before) :])
 
 
+def worked_off(rig):
+    """Wait until the executive has heard all that was asked of it so far, and is at nothing."""
+    begun = len(rig.told.did)
+    rig.until(lambda: not rig.orders._tasks)
+    rig.orders.say("hold still")
+    assert eventually(lambda: any("hold still" in one for one in rig.told.did[begun:]))
+
+
 def test_a_flood_is_bounded_and_a_stop_goes_past_it(rig):
     rig.told.go_on.clear()  # the executive is busy with a line
     try:
@@ -369,11 +377,12 @@ def test_a_flood_is_bounded_and_a_stop_goes_past_it(rig):
         assert eventually(stopped)
     finally:
         rig.told.go_on.set()
-    rig.until(lambda: not rig.orders._tasks)
+    worked_off(rig)
 
 
 def test_what_waits_when_the_robot_is_stopped_is_about_that_stop(rig):
     """A stop goes past the sentences before it: they are handed over after it, and not done."""
+    worked_off(rig)
     rig.told.go_on.clear()  # the executive is busy with a line
     begun = len(rig.told.did)
     try:
@@ -406,9 +415,9 @@ def test_what_is_far_too_long_is_left_out(rig):
 
 
 def test_a_subscriber_that_never_reads_holds_nothing_up(rig):
-    token = rig.peer.tokens()["MP /joint_states"]
     stuck = threading.Event()
-    reader = rig.peer._session.declare_subscriber(token.key, lambda _: stuck.wait(HANG_S))
+    key = rig.inbox(topics.JOINT_STATES).token.key
+    reader = rig.peer._session.declare_subscriber(key, lambda _: stuck.wait(HANG_S))
     try:
         rig.until(lambda: rig.bridge._out[topics.JOINT_STATES].wanted)
         for number in range(2000):  # far more than lies on the way

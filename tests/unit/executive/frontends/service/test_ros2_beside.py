@@ -61,7 +61,7 @@ def test_one_that_dies_is_started_again_but_not_for_ever(tmp_path, monkeypatch):
 
 def test_it_is_ended_with_the_robot(tmp_path, monkeypatch):
     said: list[str] = []
-    monkeypatch.setattr(ros2_beside, "MODULE", "http.server")  # something that stays
+    monkeypatch.setattr(ros2_beside, "MODULE", "tests.fakes.staying_process")
     with bridged(PLAN, logs=tmp_path, out=said.append):
         assert eventually((tmp_path / "logs" / ros2_beside.LOG).exists)
     assert not any("has ended" in one for one in said)
