@@ -16,11 +16,12 @@ from robot.planning.process import ProcessPlanner
 from robot.planning.requests import BasePath, BasePathRequest, PickPlan, PickRequest, PlanRequest
 from robot.planning.worker import Planner
 from tests.fakes.planning_room import START, on_table, surroundings
+from tests.fakes.waiting import HANG_S
 
 PATH = BasePathRequest(start=START, goal=(2.95, -1.2, 0.0), around=surroundings())
 PICK = PickRequest(object_id="cup", around=surroundings(on_table(0.1, 0.1)), start=START, seed=3)
 ROBOT = load("juno")
-PATIENCE_S = 60.0
+PATIENCE_S = HANG_S
 
 
 @pytest.fixture(scope="module", params=["inline", "process"])

@@ -48,7 +48,6 @@ def evaluate(folder: Path, *options: str) -> tuple[int, dict]:
         command(folder, *options),
         capture_output=True,
         text=True,
-        timeout=300,
         check=False,
         cwd=folder,
     )
