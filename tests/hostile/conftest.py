@@ -1,7 +1,9 @@
 """One fork-server for all cases of a process, and the share of them that is run."""
 
 import os
+import tempfile
 from collections.abc import Generator
+from pathlib import Path
 
 import pytest
 
@@ -18,11 +20,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 @pytest.fixture(scope="session")
-def examiner(tmp_path_factory: pytest.TempPathFactory) -> Generator[Examiner]:
-    folder = tmp_path_factory.mktemp("hostile")
-    for parent in (folder, *folder.parents):
-        if parent.stat().st_uid == os.getuid() and not parent.stat().st_mode & 0o005:
-            parent.chmod(0o755)  # other users have to get through to their case
-    examiner = Examiner(folder)
-    yield examiner
-    examiner.close()
+def examiner() -> Generator[Examiner]:
+    """In a folder of its own: pytest closes its own one to others whenever it is begun anew."""
+    with tempfile.TemporaryDirectory(prefix="hostile-", ignore_cleanup_errors=True) as made:
+        folder = Path(made)
+        for parent in (folder, *folder.parents):
+            if parent.stat().st_uid == os.getuid() and not parent.stat().st_mode & 0o005:
+                parent.chmod(0o755)  # other users have to get through to their case
+        examiner = Examiner(folder)
+        yield examiner
+        examiner.close()

@@ -26,7 +26,8 @@ def attended(shell: Steered, folder: Path, handle: Handle | None) -> Generator[N
             private = handle.folder if handle is not None else _own(stack)
             stack.enter_context(Desk(shell, folder=folder, private=private))
         except (OSError, ProcessError) as error:
-            shell.out(f"Pages can look on only: {error}")
+            why = f"{folder}: {error.strerror}" if isinstance(error, OSError) else str(error)
+            shell.out(f"Pages can look on only: {why}")
         yield
 
 
