@@ -302,8 +302,11 @@ def run(job: Job) -> Result:
         if done:
             ended = (status, usage)
             break
+        if came:  # it is at work: the table of processes costs more to read than some cases
+            quiet, before = 0, -1
+            continue
         used = _at_work(pid)
-        quiet = quiet + 1 if used == before and not came else 0
+        quiet = quiet + 1 if used == before else 0
         before = used
         if quiet > QUIET_POLLS:
             os.killpg(pid, signal.SIGKILL)

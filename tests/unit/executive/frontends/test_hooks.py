@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import subprocess
 import sys
 import threading
 from pathlib import Path
@@ -107,7 +108,15 @@ def test_what_a_hook_has_started_ends_with_it(tmp_path, monkeypatch):
         f"import subprocess, sys; subprocess.Popen([sys.executable, '-c', {child!r}]); "
         "import time; time.sleep(600)"
     )
-    monkeypatch.setattr(hooks, "MOST_S", 5.0)
+
+    class Late(subprocess.Popen):
+        """Whose time is over as soon as its child is there."""
+
+        def communicate(self, data=None, timeout=None):
+            assert eventually(lambda: mark.exists() and mark.read_text())
+            return super().communicate(data, timeout=0.0)
+
+    monkeypatch.setattr(hooks.subprocess, "Popen", Late)
     told = {"event": "done", "text": "", "cause": ""}
     with pytest.raises(hooks.subprocess.TimeoutExpired):
         hooks.do((sys.executable, "-c", both), told)
