@@ -313,7 +313,7 @@ def connect(place: Place, *, wait_s: float = CONNECT_S) -> socket.socket:
     until = _TIMEVAL.pack(whole_s, round((wait_s - whole_s) * 1e6))
     connection.setsockopt(socket.SOL_SOCKET, socket.SO_SNDTIMEO, until)
     try:
-        connection.connect(f"/proc/self/fd/{folder}/{SOCKET}")
+        _join(connection, f"/proc/self/fd/{folder}/{SOCKET}")
         if not is_own(connection):
             raise PermissionError(errno.EPERM, "another user listens there")
     except BaseException:
@@ -322,3 +322,20 @@ def connect(place: Place, *, wait_s: float = CONNECT_S) -> socket.socket:
     finally:
         os.close(folder)
     return connection
+
+
+def _join(connection: socket.socket, address: str) -> None:
+    """Connect, again where a signal came meanwhile (Ctrl-Z and `fg`, a window's new size).
+
+    Python takes a connect(2) that a signal has ended (EINTR, signal(7)) for one that goes on by
+    itself, and a socket on which nothing goes on for one that is connected.
+    """
+    while True:
+        connection.connect(address)
+        try:
+            connection.getpeername()
+        except OSError as error:
+            if error.errno != errno.ENOTCONN:
+                raise
+            continue
+        return

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import socket
 
 import pytest
@@ -111,6 +112,22 @@ def test_a_path_longer_than_a_sockets_is_as_good_as_any(monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(deep))
     with claimed("kitchen") as place, places.listen(place, RUNNING, backlog=1):
         places.connect(place).close()
+
+
+def test_a_signal_while_it_is_waited_for_makes_no_connection():
+    before = signal.signal(signal.SIGALRM, lambda *_: None)
+    with (
+        claimed("kitchen") as place,
+        places.listen(place, RUNNING, backlog=0),
+        places.connect(place),  # as many as there is room for
+    ):
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        try:
+            with pytest.raises(BlockingIOError):
+                places.connect(place, wait_s=0.5)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+            signal.signal(signal.SIGALRM, before)
 
 
 @pytest.mark.parametrize("name", ["", "..", "a/b", "-x", "Kitchen", "x" * 33, "a\nb", "ä"])
