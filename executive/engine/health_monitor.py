@@ -303,7 +303,9 @@ class _Flow:
 
     def judge(self, name: str, now_s: float, stamp_s: float | None) -> Finding | None:
         """Look once a tick; None while all is well, or while it is too early to tell."""
-        self._ticks.append((now_s, stamp_s is not None and stamp_s != self._stamp_s))
+        if stamp_s is None:
+            return None  # it has not begun, which is another finding
+        self._ticks.append((now_s, stamp_s != self._stamp_s))
         self._stamp_s = stamp_s
         if len(self._ticks) < WINDOW_TICKS:
             return None

@@ -248,14 +248,25 @@ class LiveRuntime(Closing):
             if self.failure() is not None:
                 break
             if self._wall.now_s() > until_s:
-                self._failure = failure(
-                    "controller_lost",
-                    f"the robot did not come up within {START_S:.0f} s",
-                    suggestion=f"see {self._folder / 'logs'}",
-                )
+                self._failure = self._not_up()
                 break
             self._wall.sleep_until(self._wall.now_s() + POLL_S)
         self._due_s = self._wall.now_s()
+
+    def _not_up(self) -> Failure:
+        """Why it has not come up in time."""
+        link, lidar = self.link, self.run.localisation == "lidar"
+        if lidar and link.body() is not None and link.map() is not None:
+            return failure(
+                "localisation_lost",
+                f"for {START_S:.0f} s it has not found in its map where it is",
+                suggestion="begin elsewhere, or with --localisation oracle",
+            )
+        return failure(
+            "controller_lost",
+            f"the robot did not come up within {START_S:.0f} s",
+            suggestion=f"see {self._folder / 'logs'}",
+        )
 
     def _opened(self) -> ZenohBus:
         if self._bus is None:

@@ -304,6 +304,15 @@ def test_a_rate_that_wavers_is_told_once():
     assert changes == 2
 
 
+def test_a_topic_that_begins_late_is_not_thin():
+    """A robot that finds itself by its lidar says where it is from 0.8 s on, then as promised."""
+    flow = _Flow(10.0)
+    begun = 16
+    for tick in range(200):
+        stamp_s = 0.1 * (tick // 2) if tick >= begun else None
+        assert flow.judge("world/state", 0.05 * tick, stamp_s) is None
+
+
 def test_how_hot_a_motor_is_by_now_is_journalled(robot):
     """A page of a run shows what was true by then, not when it came up."""
     told = []
