@@ -1,7 +1,8 @@
 """`python -m benchmarks.localisation`: where the robot believes to be, against the truth.
 
-Parts: `job` (the main job, shuffled), `stand` (60 s), `kidnap` (set down elsewhere), `walk`
-(through every room of a home). With its lidar in its own map, or by the oracle, to compare.
+Parts: `job` (the main job, shuffled), `find` (where it began), `stand` (60 s), `kidnap` (set down
+elsewhere while it stands, or, with `--walking`, while it walks), `walk` (through every room of a
+home, again and again for `--least-m`). With its lidar in its own map, or by the oracle, to compare.
 """
 
 from __future__ import annotations
@@ -47,6 +48,12 @@ KIDNAPS = (
     (-0.6, -0.4, 20.0),
 )
 """x, y [m] of the kitchen, and by how much it is turned [deg]."""
+FOUND_S = 0.5
+"""It is watched so long after it has begun and found itself."""
+WALKED_S, WALKED_MORE_S, TURNED_MORE_DEG = 4.0, 1.5, 75.0
+"""It has walked so long when it is carried off; the second time more, and it is turned more."""
+FALLEN_M, MOST_STEP_M = 0.5, 0.2
+"""A pelvis that is lower has fallen; a longer way in a tick is not walked."""
 HEAD = [
     "",
     "done",
@@ -133,6 +140,27 @@ def job(seed: int, reality: str, by: LocalisedBy) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def find(seed: int, reality: str, by: LocalisedBy) -> dict[str, Any]:
+    """Begin somewhere in the kitchen: how long until it knows where, and whether that is so."""
+    where, lidar_map = _where("kitchen", reality, by, vary_seed=seed)
+    with FastRuntime(where.world, "juno", seed=seed, lidar_map=lidar_map) as runtime:
+        while runtime.link.world() is None and runtime.clock.now_s() < WITHIN_S:
+            runtime.advance(PERIOD_S)
+        found_s = runtime.clock.now_s()
+        truth = Truth(runtime)
+        while runtime.clock.now_s() < found_s + FOUND_S:
+            runtime.advance(PERIOD_S)
+            truth.look()
+        start = runtime.plant.oracle.X_WB()
+    known = truth.report()
+    off_mm = known.get("off_mm", [])
+    return {
+        "ok": not off_mm or off_mm[-1] < 1000.0 * WRONG_M, "found_s": round(found_s, 2),
+        "start": [round(start.p[0], 2), round(start.p[1], 2), round(math.degrees(start.yaw_rad))],
+        **known,
+    }  # fmt: skip
+
+
 def stand(seed: int, reality: str, by: LocalisedBy) -> dict[str, Any]:
     """Sixty seconds on the spot: how far what it believes of its odometry frame wanders."""
     where, lidar_map = _where("kitchen", reality, by)
@@ -149,42 +177,105 @@ def stand(seed: int, reality: str, by: LocalisedBy) -> dict[str, Any]:
     return {"ok": True, "spread_mm": spread_mm, **truth.report()}
 
 
-def kidnap(number: int, reality: str, by: LocalisedBy) -> dict[str, Any]:
-    """Set down elsewhere while it stands: how long until it says so, and until it knows better."""
-    x_m, y_m, turn_deg = KIDNAPS[number]
+def kidnap(number: int, reality: str, by: LocalisedBy, *, walking: bool) -> dict[str, Any]:
+    """Set down elsewhere: how long until it says so, and until it knows better.
+
+    While it walks: the first five times to the shelf and to the table by turns, then again from
+    another moment of the way, turned otherwise. Its job is given up once that has been seen.
+    """
+    x_m, y_m, turn_deg = KIDNAPS[number % len(KIDNAPS)]
+    second = number // len(KIDNAPS)
     where, lidar_map = _where("kitchen", reality, by)
     with FastRuntime(where.world, "juno", seed=number, lidar_map=lidar_map) as runtime:
-        runtime.advance(SETTLE_S)
-        runtime.inject(Kidnap(at_m=(x_m, y_m), turn_deg=turn_deg))
-        noticed_s = found_s = math.inf
-        wrong_s, off_m = 0.0, math.inf
-        while (since_s := runtime.clock.now_s() - SETTLE_S) < WITHIN_S:
-            runtime.advance(PERIOD_S)
-            world, body = runtime.link.world(), runtime.link.body()
-            if world is None or body is None:
-                continue
-            believed = world.X_WN @ body.X_NB
-            off_m = math.dist(believed.p[:2], runtime.plant.oracle.X_WB().p[:2])
-            if world.lost:
-                noticed_s, found_s = min(noticed_s, since_s), math.inf
-            elif off_m < WRONG_M:
-                found_s = min(found_s, since_s)
-                if since_s > found_s + WATCH_S:
-                    break
+        setup = Setup(where=where, kind="fast", seed=number)
+        with Session(setup, Opened(runtime, InlinePlanner(where.description))) as session:
+            watched = Kidnapped(
+                runtime,
+                Kidnap(at_m=(x_m, y_m), turn_deg=turn_deg + TURNED_MORE_DEG * second),
+                at_s=SETTLE_S + (WALKED_S + WALKED_MORE_S * second if walking else 0.0),
+            )
+            session.on_tick(watched.look)
+            if walking:
+                goal = ("shelf", "table")[number % 2]
+                asked = request.meant(f"go to {goal}", (GoTo(place=goal),), where)
+                assert isinstance(asked, Understood)
+                session.submit(asked)
+            session.run(until=watched.over)
+            while not watched.over():  # its job is over
+                runtime.advance(PERIOD_S)
+                watched.look()
+    return watched.report()
+
+
+class Kidnapped:
+    """A robot that is set down elsewhere, and watched from then on, tick by tick."""
+
+    def __init__(self, runtime: FastRuntime, fault: Kidnap, *, at_s: float) -> None:
+        """It is to happen at `at_s`."""
+        self._runtime, self._fault, self._at_s = runtime, fault, at_s
+        self._noticed_s = self._found_s = math.inf
+        self._before_s = self._wrong_s = 0.0
+        self._off_m, self._speed_m_s, self._lost = math.inf, 0.0, ""
+        self._way_m, self._fell = 0.0, False
+        self._last = runtime.plant.oracle.X_WB().p
+        self._happened = False
+
+    def look(self) -> None:
+        """Once a tick."""
+        runtime = self._runtime
+        true = runtime.plant.oracle.X_WB()
+        step_m, self._last = math.dist(true.p[:2], self._last[:2]), true.p
+        if not self._happened:
+            self._speed_m_s = step_m / PERIOD_S
+            if runtime.clock.now_s() >= self._at_s:
+                runtime.inject(self._fault)
+                self._happened = True
+            return
+        self._fell = self._fell or true.p[2] < FALLEN_M
+        world, body = runtime.link.world(), runtime.link.body()
+        if world is None or body is None:
+            return
+        self._lost = world.lost
+        self._off_m = math.dist((world.X_WN @ body.X_NB).p[:2], true.p[:2])
+        since_s = self._since_s
+        if world.lost:
+            self._noticed_s, self._found_s = min(self._noticed_s, since_s), math.inf
+        elif self._off_m < WRONG_M:
+            self._found_s = min(self._found_s, since_s)
+        else:
+            self._found_s = math.inf
+            if self._noticed_s == math.inf:
+                self._before_s += PERIOD_S
+                self._way_m += step_m if step_m < MOST_STEP_M else 0.0
             else:
-                wrong_s += PERIOD_S
-        lost = world.lost if world is not None else ""
-    return {
-        "ok": bool(lost) or off_m < WRONG_M, "noticed_s": round(noticed_s, 2),
-        "found_s": round(found_s, 2), "sure_and_wrong_s": round(wrong_s, 2),
-        "off_mm": [round(1000.0 * off_m, 1)], "lost": lost,
-    }  # fmt: skip
+                self._wrong_s += PERIOD_S
+
+    @property
+    def _since_s(self) -> float:
+        return self._runtime.clock.now_s() - self._at_s
+
+    def over(self) -> bool:
+        """Whether it has been found for a while, or the time is over."""
+        known_s = self._since_s - self._found_s
+        return self._happened and (known_s > WATCH_S or self._since_s > WITHIN_S)
+
+    def report(self) -> dict[str, Any]:
+        """What became of it."""
+        knows = bool(self._lost) or self._off_m < WRONG_M
+        return {
+            "ok": knows and self._wrong_s == 0.0 and not self._fell,
+            "speed_m_s": round(self._speed_m_s, 2), "noticed_s": round(self._noticed_s, 2),
+            "found_s": round(self._found_s, 2), "wrong_before_noticed_s": round(self._before_s, 2),
+            "way_before_noticed_m": round(self._way_m, 2),
+            "sure_and_wrong_after_s": round(self._wrong_s, 2), "fell": self._fell,
+            "off_mm": [round(1000.0 * self._off_m, 1)], "lost": self._lost,
+        }  # fmt: skip
 
 
-def walk(seed: int, reality: str, by: LocalisedBy, *, world: str) -> dict[str, Any]:
-    """Through every room of a home, from goal to goal."""
+def walk(seed: int, reality: str, by: LocalisedBy, *, world: str, least_m: float) -> dict[str, Any]:
+    """Through every room of a home, from goal to goal, again from the first until `least_m`."""
     where, lidar_map = _where(world, reality, by)
-    way_m, reached = 0.0, 0
+    way_m, asked_for, reached = 0.0, 0, 0
     with FastRuntime(where.world, "juno", seed=seed, lidar_map=lidar_map) as runtime:
         truth, setup = Truth(runtime), Setup(where=where, kind="fast", seed=seed)
         before = runtime.plant.oracle.X_WB().p
@@ -199,39 +290,45 @@ def walk(seed: int, reality: str, by: LocalisedBy, *, world: str) -> dict[str, A
 
             session.on_tick(look)
             goals = goals_of(where.world_map)
-            for goal in goals:
+            while asked_for < len(goals) or (way_m < least_m and reached > asked_for // 2):
+                goal = goals[asked_for % len(goals)]
                 asked = request.meant(f"go to {goal}", (GoTo(place=goal),), where)
+                asked_for += 1
                 if isinstance(asked, Understood):
                     session.submit(asked)
                     session.run()
                     reached += session.executive.jobs[-1].state == "done"
     return {
-        "ok": True, "way_m": round(way_m, 1), "goals": f"{reached} of {len(goals)}",
+        "ok": True, "way_m": round(way_m, 1), "goals": f"{reached} of {asked_for}",
         "simulated_s": round(runtime.clock.now_s(), 1), **truth.report(),
     }  # fmt: skip
 
 
 def main(
-    part: Annotated[str, typer.Argument(help="job, stand, kidnap or walk")] = "job",
+    part: Annotated[str, typer.Argument(help="job, find, stand, kidnap or walk")] = "job",
     *,
     seeds: Annotated[int, typer.Option(help="how many")] = 10,
     first: Annotated[int, typer.Option(help="the first of them")] = 0,
     reality: Annotated[str, typer.Option(help="ideal, real or harsh")] = "real",
     by: Annotated[str, typer.Option(help="lidar or oracle")] = "lidar",
     world: Annotated[str, typer.Option(help="of a walk")] = "flat:3",
+    least_m: Annotated[float, typer.Option(help="of a walk")] = 0.0,
+    walking: Annotated[bool, typer.Option("--walking", help="of kidnap")] = False,
     out: Annotated[Path | None, typer.Option(help="a file for the outcomes, a line each")] = None,
 ) -> None:
     """Measure, and print a line a run, then a table."""
     localised: LocalisedBy = "lidar" if by == "lidar" else "oracle"
     rows: list[list[str]] = []
-    for seed in range(first, first + (min(seeds, len(KIDNAPS)) if part == "kidnap" else seeds)):
+    for seed in range(first, first + seeds):
         match part:
+            case "find":
+                found = find(seed, reality, localised)
             case "stand":
                 found = stand(seed, reality, localised)
             case "kidnap":
-                found = kidnap(seed, reality, localised)
+                found = kidnap(seed, reality, localised, walking=walking)
             case "walk":
-                found = walk(seed, reality, localised, world=world)
+                found = walk(seed, reality, localised, world=world, least_m=least_m)
             case _:
                 found = job(seed, reality, localised)
         line = json.dumps({"part": part, "seed": seed, "reality": reality, "by": by, **found})
