@@ -198,6 +198,13 @@ class SimulatedWorld:
             eyes=self.eyes, localisation=self.localisation,
         )  # fmt: skip
 
+    def localised(self, by: LocalisedBy) -> SimulatedWorld:
+        """The same, with who tells robots in it where they are."""
+        return SimulatedWorld(
+            self.entries, name=self.name, vary_seed=self.vary_seed, profile=self.profile,
+            eyes=self.eyes, localisation=by,
+        )  # fmt: skip
+
     def verify(self, fault: Fault, robot: RobotDescription) -> None:
         """Check every name in a fault. Raises ConfigError with the nearest name."""
         from sim import faults

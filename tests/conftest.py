@@ -38,6 +38,14 @@ MOST_FOR_OTHERS = 0.15
 _others = pytest.StashKey[Others]()
 
 
+@pytest.fixture(scope="session", autouse=True)
+def maps_of_their_own(tmp_path_factory: pytest.TempPathFactory) -> Generator[None]:
+    """No test depends on the maps that whoever runs it keeps at home."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CACHE_HOME", str(tmp_path_factory.mktemp("cache")))
+        yield
+
+
 def pytest_addoption(parser: pytest.Parser) -> None:
     """What only some runs want; here, as pytest asks the topmost conftest only."""
     whole = "every case of tests/hostile, of which a share is run otherwise"

@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -232,6 +232,19 @@ def meant(case: Case, settings: Settings) -> Meant | request.Refused:
     return Meant(assignment=Assignment(understood=understood), where=where)
 
 
+def where(case: Case, settings: Settings) -> request.Setting:
+    """Robot and world of a case, whether its mission is understood or not.
+
+    Raises:
+        ConfigError: a world or a mission file is wrong.
+    """
+    if case.mission.endswith((".yaml", ".yml")):
+        given = meant(case, settings)
+        assert isinstance(given, Meant)  # only a sentence can be refused
+        return given.where
+    return settings.of(case.world or BENCH)
+
+
 def problems_of(case: Case, settings: Settings) -> list[str]:
     """Everything wrong with a case that can be found without running it."""
     found = [
@@ -257,6 +270,14 @@ def problems_of(case: Case, settings: Settings) -> list[str]:
     return found
 
 
+def _by_oracle(_case: Case) -> LocalisedBy:
+    return "oracle"
+
+
+def _told(by: LocalisedBy) -> LocalisedBy | msgspec.UnsetType:
+    return msgspec.UNSET if by == "oracle" else by
+
+
 def runs(
     cases: tuple[Case, ...],
     *,
@@ -265,7 +286,7 @@ def runs(
     robot: str,
     reality: str = IDEAL,
     eyes: EyesBy = "oracle",
-    localisation: LocalisedBy = "oracle",
+    localised: Callable[[Case], LocalisedBy] = _by_oracle,
 ) -> list[Run]:
     """Every case with every seed, the seeds outermost, so that all cases get on evenly.
 
@@ -276,7 +297,7 @@ def runs(
         robot: who does it.
         reality: in which.
         eyes: who tells the robot where the things are.
-        localisation: who tells it where it is.
+        localised: who tells it where it is, in each case.
 
     Raises:
         ConfigError: they are more than `MOST_RUNS`.
@@ -285,7 +306,8 @@ def runs(
     check_count(len(cases) * seeds * len(ways))
     profile = msgspec.UNSET if reality == IDEAL else reality
     seen_by = msgspec.UNSET if eyes == "oracle" else eyes
-    placed_by = msgspec.UNSET if localisation == "oracle" else localisation
+    told: dict[str, LocalisedBy | msgspec.UnsetType]
+    told = {case.name: _told(localised(case)) for case in cases}
     return [
         Run(
             case=case,
@@ -294,7 +316,7 @@ def runs(
             robot=robot,
             reality=profile,
             eyes=seen_by,
-            localisation=placed_by,
+            localisation=told[case.name],
         )
         for seed in range(seeds)
         for case in cases

@@ -61,7 +61,7 @@ def _broken(run: Run, error: Exception) -> Record:
 
 
 def _carried_out(run: Run, reality: Reality, folder: Path) -> Record:
-    given = meant(run.case, Settings(reality, run.robot))
+    given = meant(run.case, Settings(_reality(run, reality), run.robot))
     if isinstance(given, Meant):
         return _Trial(run, given, folder).carry_out()
     return Record(
@@ -69,6 +69,13 @@ def _carried_out(run: Run, reality: Reality, folder: Path) -> Record:
         ok=not {given.outcome, REFUSED}.isdisjoint(run.case.codes), code=given.outcome,
         cause=given.reason,
     )  # fmt: skip
+
+
+def _reality(run: Run, reality: Reality) -> Reality:
+    """As it is for this run: cases differ in who tells the robot where it is."""
+    if run.localisation is msgspec.UNSET:
+        return reality
+    return reality.under(reality.profile, eyes=reality.eyes, localisation=run.localisation)
 
 
 class _Trial:

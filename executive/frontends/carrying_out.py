@@ -25,7 +25,7 @@ from executive.frontends.output import Screen, say, write_json
 from executive.frontends.progress import Lines, LiveTree, Silent
 from executive.meaning import request
 from executive.meaning.request import Setting
-from executive.runs import runtimes, task_run
+from executive.runs import lidar_maps, runtimes, task_run
 from executive.runs.again import continuation
 from executive.runs.again.continuation import Left, left_in
 from executive.runs.runtimes import Setup
@@ -113,11 +113,22 @@ def carry_out(
     return summary.exit_status
 
 
-def setup(where: Setting, options: Seeded, folder: Path) -> Setup:
-    """What a run is set up with. Raises ConfigError if its motors cannot be driven so."""
+def setup(where: Setting, options: Seeded, folder: Path, *, handle: Handle | None = None) -> Setup:
+    """What a run is set up with. Raises ConfigError if its motors cannot be driven so.
+
+    Who tells the robot where it is is settled here, and stays as it is in a run that is under way.
+    """
+    there = under_way(handle)
+    by = there.localisation if there is not None else options.localisation
+    as_json = isinstance(options, Shown) and options.as_json  # its summary says it as well
+
+    def tell(text: str) -> None:
+        if not as_json:
+            say(text, err=True)
+
+    where = lidar_maps.localised(where, by, tell=tell)
     kind: runtimes.Kind = "fast" if options.fast else "live"
-    err = isinstance(options, Shown) and options.as_json
-    driver = chosen(options.driver, where.description, fast=options.fast, err=err)
+    driver = chosen(options.driver, where.description, fast=options.fast, err=as_json)
     return Setup(
         where=where, kind=kind, seed=options.seed, folder=folder, pictures=options.camera,
         driver=driver,

@@ -33,7 +33,7 @@ def do(options: Do, handle: Handle | None = None) -> int:
 
     def prepare() -> Prepared | int:
         where = request.setting(
-            REALITY.under(options.reality, eyes=options.eyes, localisation=options.localisation),
+            REALITY.under(options.reality, eyes=options.eyes),
             options.world,
             robot=options.robot,
             vary_seed=options.vary_seed,
@@ -45,7 +45,7 @@ def do(options: Do, handle: Handle | None = None) -> int:
             told = f"  {understood.remark}"
             say(told, err=options.as_json, styled=(told, "dim"))
         folder = folder_for(options.run_dir, options.text, handle)
-        setup = carrying_out.setup(where, options, folder)
+        setup = carrying_out.setup(where, options, folder, handle=handle)
         return Prepared(assignment=Assignment(understood=understood), setup=setup)
 
     return carrying_out.carry_out(

@@ -26,6 +26,7 @@ from executive.evaluation.record import FILE, Record, Results, fingerprint, fold
 from executive.frontends import evaluation_asked
 from executive.frontends.composition_root import REALITY
 from executive.frontends.ending import Ending
+from executive.frontends.evaluation_localised import Localised
 from executive.frontends.evaluation_report import Found, save, show, well
 from executive.frontends.exit import last_words
 from executive.frontends.launching import new_folder
@@ -52,6 +53,7 @@ def evaluate(options: Eval) -> int:
     REALITY.under(options.reality)  # so that one that is not there is said before anything is run
     moved = _moved(options) if options.homes else None
     cases = moved.cases if moved else chosen(options)
+    localised = Localised(options)
     wanted = campaign.runs(
         cases,
         seeds=options.seeds,
@@ -59,8 +61,9 @@ def evaluate(options: Eval) -> int:
         robot=options.robot,
         reality=options.reality,
         eyes=options.eyes,
-        localisation=options.localisation,
+        localised=localised,
     )
+    localised.say()
     root = Path(executive.__file__).parent.parent
     with Results(_folder(options), fingerprint=fingerprint(root)) as results:
         evaluation_asked.keep(results.path.parent, options)
@@ -254,7 +257,7 @@ def _go_through(
     results: Results, runs: list[Run], options: Eval, screen: Screen, *, ending: Ending
 ) -> None:
     """Do the runs that are left, keeping each record as it comes."""
-    there = REALITY.under(options.reality, eyes=options.eyes, localisation=options.localisation)
+    there = REALITY.under(options.reality, eyes=options.eyes)
     work = (
         pool.on_ray(runs, there, stop=lambda: ending.asked)
         if options.ray

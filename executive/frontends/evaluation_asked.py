@@ -12,7 +12,7 @@ from executive.frontends.options import Eval
 from robot.errors import ConfigError, Problem
 from robot.files.ordinary_files import read_ordinary, write_ordinary
 from robot.files.plain_data import fitted, from_json
-from robot.messages import EyesBy, LocalisedBy
+from robot.messages import AskedLocalisation, EyesBy
 
 FILE = "asked.json"
 LIMIT = 1_000_000
@@ -32,7 +32,7 @@ class Asked(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     robot: str = ""
     reality: str = "ideal"
     eyes: EyesBy = "oracle"
-    localisation: LocalisedBy = "oracle"
+    localisation: AskedLocalisation = "oracle"
     seeds: Annotated[int, msgspec.Meta(ge=1, le=10_000)] = 1
     no_recovery: bool = False
 
@@ -83,7 +83,8 @@ def as_before(options: Eval) -> Eval:
         raise ConfigError([Problem(text, str(path), suggestion=cure)]) from None
     if any(_chosen(options).values()):
         _must_be_as_before(options, asked)
-        return options
+        by = asked.localisation if options.localisation == "auto" else options.localisation
+        return replace(options, localisation=by)
     return replace(
         options,
         missions=list(asked.missions) or None,

@@ -25,7 +25,7 @@ import typer
 
 from executive.frontends import completing
 from executive.frontends.dump.cli import Dump, DumpFormat, DumpOn
-from robot.messages import EyesBy, LocalisedBy
+from robot.messages import AskedLocalisation, EyesBy
 
 T = TypeVar("T")
 
@@ -68,11 +68,12 @@ Eyes = Annotated[
     ),
 ]
 Localisation = Annotated[
-    LocalisedBy,
+    AskedLocalisation,
     typer.Option(
         "--localisation",
-        help="Who tells the robot where it is: oracle (the simulator), or lidar: it finds itself "
-        "with its lidar and legs in a map that it made itself (docs/localisation.md).",
+        help="Who tells the robot where it is: lidar: it finds itself with its lidar and legs in a "
+        "map that it made itself (without one it makes one first); oracle: the simulator; auto: "
+        "lidar where it has a map, else oracle (docs/localisation.md).",
     ),
 ]
 Driver = Annotated[
@@ -119,7 +120,7 @@ class Seeded:
     seed: Seed = 0
     reality: InReality = "ideal"
     eyes: Eyes = "oracle"
-    localisation: Localisation = "oracle"
+    localisation: Localisation = "auto"
     fast: Annotated[
         bool,
         typer.Option(
@@ -299,7 +300,7 @@ class Eval:
     ] = ""
     reality: InReality = "ideal"
     eyes: Eyes = "oracle"
-    localisation: Localisation = "oracle"
+    localisation: Localisation = "auto"
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")] = (
         False
     )

@@ -11,7 +11,7 @@ from executive.frontends.options import Walk
 from executive.frontends.output import Screen, say, write_json
 from executive.journal import failures
 from executive.meaning import request
-from executive.runs import runtimes, velocity_walk
+from executive.runs import lidar_maps, runtimes, velocity_walk
 from executive.runs.runtimes import Setup
 from executive.runs.summary import late_periods
 from executive.runs.velocity_walk import VelocityCommand, Walked
@@ -27,10 +27,11 @@ def walk(options: Walk) -> int:
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
     where = request.setting(
-        REALITY.under(options.reality, eyes=options.eyes, localisation=options.localisation),
+        REALITY.under(options.reality, eyes=options.eyes),
         options.world,
         robot=options.robot,
     )
+    where = lidar_maps.localised(where, options.localisation, tell=_say_nothing)
     command = VelocityCommand(
         forward_m_s=options.speed,
         left_m_s=options.left,
@@ -61,6 +62,10 @@ def walk(options: Walk) -> int:
         lines = _words(walked, past_s, wall.now_s() - begun_s)
         say("\n".join([*lines, *(f"  {line}" for line in late)]))
     return exit_status(walked.failure)
+
+
+def _say_nothing(_text: str) -> None:
+    """It walks where nothing is in its way, and does not ask where it is."""
 
 
 def _words(walked: Walked, past_s: float, wall_s: float) -> list[str]:

@@ -13,6 +13,7 @@ Frames (docs/frames.md): W world; N odometry (the controller's own: smooth, drif
 """
 
 from robot.messages.basics import (
+    AskedLocalisation,
     Channel,
     EyesBy,
     LocalisedBy,
@@ -79,6 +80,7 @@ from robot.messages.world_state import (
 __all__ = [
     "PERSON_RADIUS_M",
     "Activity",
+    "AskedLocalisation",
     "BodyCommand",
     "BodyState",
     "CameraState",

@@ -14,6 +14,8 @@ EyesBy = Literal["oracle", "camera"]
 """Who tells where the things are: the simulator, or what the robot sees in its own pictures."""
 LocalisedBy = Literal["oracle", "lidar"]
 """Who tells where the robot is: the simulator, or its own lidar and legs in its own map."""
+AskedLocalisation = Literal["auto", "oracle", "lidar"]
+"""What people ask for: one of these, or its lidar wherever it has a map, and else the simulator."""
 
 
 class Message(msgspec.Struct, frozen=True, kw_only=True):

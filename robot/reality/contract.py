@@ -241,6 +241,10 @@ class World(Protocol):
         """
         ...
 
+    def localised(self, by: LocalisedBy) -> World:
+        """The same world, in which robots are told by another where they are."""
+        ...
+
     def verify(self, fault: Fault, robot: RobotDescription) -> None:
         """Check every name in a fault. Raises ConfigError with the nearest name."""
         ...

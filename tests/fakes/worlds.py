@@ -5,6 +5,7 @@ from __future__ import annotations
 from executive.meaning.request import Setting
 from robot import messages as m
 from robot.model.description import load
+from robot.reality.contract import Reality
 from robot.se3 import SE3
 from tests.fakes.puppet import Thing
 from tests.fakes.puppet_runtime import SensingPuppet
@@ -73,20 +74,27 @@ LOCALISATION: m.LocalisedBy = "oracle"
 class MappedWorld:
     """A world that is a map and nothing more: for what is meant, not for what is done."""
 
-    def __init__(self, name: str = "test") -> None:
+    def __init__(self, name: str = "test", *, localisation: m.LocalisedBy = LOCALISATION) -> None:
         self.name = name
         self.vary_seed = None
-        self.profile, self.eyes, self.localisation = "ideal", EYES, LOCALISATION
+        self.profile, self.eyes = "ideal", EYES
+        self.localisation: m.LocalisedBy = localisation
         self.map = world_map()
 
     def content(self) -> bytes:
         return b""
 
+    def localised(self, by: m.LocalisedBy) -> MappedWorld:
+        return MappedWorld(self.name, localisation=by)
+
 
 class Mapped:
     """A reality of such worlds, whatever is asked for."""
 
-    profile, eyes, localisation = "ideal", EYES, LOCALISATION
+    profile, eyes = "ideal", EYES
+
+    def __init__(self, localisation: m.LocalisedBy = LOCALISATION) -> None:
+        self.localisation: m.LocalisedBy = localisation
 
     def under(
         self,
@@ -95,22 +103,22 @@ class Mapped:
         eyes: m.EyesBy = EYES,
         localisation: m.LocalisedBy = LOCALISATION,
     ) -> Mapped:
-        return self
+        return Mapped(localisation)
 
     def names(self) -> list[str]:
         return ["test"]
 
     def world(self, name_or_path: str, *, vary_seed: int | None = None) -> MappedWorld:
-        return MappedWorld(name_or_path)
+        return MappedWorld(name_or_path, localisation=self.localisation)
 
 
 def mapped(
-    _reality: object, world: str, *, robot: str = "juno", vary_seed: int | None = None
+    reality: Reality | None, world: str, *, robot: str = "juno", vary_seed: int | None = None
 ) -> Setting:
     """In place of `executive.meaning.request.setting`: such a world, whatever is asked for."""
-    reality = Mapped()
+    there = Mapped(LOCALISATION if reality is None else reality.localisation)
     return Setting(
-        reality=reality, world=reality.world(world), description=load(robot), robot_name=robot
+        reality=there, world=there.world(world), description=load(robot), robot_name=robot
     )
 
 

@@ -30,7 +30,7 @@ def run(options: Run, handle: Handle | None = None) -> int:
         path = load.find(options.file)
         checked = check(
             path,
-            REALITY.under(options.reality, eyes=options.eyes, localisation=options.localisation),
+            REALITY.under(options.reality, eyes=options.eyes),
             given,
         )
         say_notes(checked)
@@ -38,7 +38,7 @@ def run(options: Run, handle: Handle | None = None) -> int:
         mission_assignment.keep(checked, folder)
         return Prepared(
             assignment=mission_assignment.assignment(checked, given, path=str(path)),
-            setup=carrying_out.setup(checked.where, options, folder),
+            setup=carrying_out.setup(checked.where, options, folder, handle=handle),
         )
 
     return carrying_out.carry_out(prepare, options, handle, page=options, attend=attached)

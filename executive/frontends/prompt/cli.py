@@ -149,7 +149,7 @@ def conversation(
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
     where = request.setting(
-        REALITY.under(options.reality, eyes=options.eyes, localisation=options.localisation),
+        REALITY.under(options.reality, eyes=options.eyes),
         options.world,
         robot=options.robot,
         vary_seed=options.vary_seed,
@@ -158,7 +158,7 @@ def conversation(
     folder = folder_for(options.run_dir, about, handle)
     left = folder if under_way(handle) is not None else options.left_by
     robot = Robot(
-        carrying_out.setup(where, options, folder),
+        carrying_out.setup(where, options, folder, handle=handle),
         wall=WallClock(),
         time_of_day=time.time,
         handle=handle,

@@ -30,7 +30,7 @@ def register(app: typer.Typer, settings: Settings) -> None:
         seed: Seed = 0,
         vary: Annotated[bool, typer.Option("--vary", help="As of do.")] = False,
         eyes: Eyes = "oracle",
-        localisation: Localisation = "oracle",
+        localisation: Localisation = "auto",
         view: View = False,
         voice: Annotated[bool, typer.Option("--voice", help="As of do.")] = False,
         voice_model: Annotated[Path | None, typer.Option("--voice-model", help="As of do.")] = None,

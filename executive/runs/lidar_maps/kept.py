@@ -56,11 +56,9 @@ def needed(where: Setting, *, tell: Tell = tell_on_screen) -> Path | None:
     """
     if where.world.localisation != "lidar":
         return None
-    name = _file_name(where)
-    folder = user_cache_folder()
-    shipped = SHIPPED / name
-    if shipped.is_file():
-        return shipped
+    if is_shipped(where):
+        return _shipped(where)
+    name, folder = _file_name(where), user_cache_folder()
     if folder is None:
         cure = "set HOME, or XDG_CACHE_HOME"
         raise ConfigError([Problem("there is no folder to keep maps in", suggestion=cure)])
@@ -76,6 +74,38 @@ def needed(where: Setting, *, tell: Tell = tell_on_screen) -> Path | None:
         map_file.save(path, saved)
         tell(f"the map is kept as {path}")
     return path
+
+
+def is_shipped(where: Setting) -> bool:
+    """Whether the map of this world by this robot comes with the package."""
+    return _shipped(where).is_file()
+
+
+def is_kept(where: Setting) -> bool:
+    """Whether there is a map of this world by this robot, so that none has to be made.
+
+    One that cannot be read, or that somebody else could exchange, is none: nobody asked for it.
+    """
+    if is_shipped(where):
+        return True
+    folder = user_cache_folder()
+    if folder is None:
+        return False
+    path = folder / "maps" / _file_name(where)
+    if not os.path.lexists(path):
+        return False
+    from robot.fusion.slam import map_file  # scipy
+
+    try:
+        _check_private(path)
+        map_file.load(path)
+    except ConfigError:
+        return False
+    return True
+
+
+def _shipped(where: Setting) -> Path:
+    return SHIPPED / _file_name(where)
 
 
 def _check_private(path: Path) -> None:

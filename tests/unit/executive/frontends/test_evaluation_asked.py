@@ -62,3 +62,13 @@ def test_what_cannot_be_read_is_said(tmp_path: Path, text: str):
     (tmp_path / FILE).write_text(text)
     with pytest.raises(ConfigError):
         as_before(Eval(resume=tmp_path))
+
+
+def test_an_evaluation_of_before_own_places_goes_on_with_the_oracle(tmp_path):
+    """Its runs were made so; others under the same names would be refused."""
+    told = Eval(missions=["nod"], world="kitchen", localisation="oracle", seeds=1)
+    keep(tmp_path, told)
+    again = replace(told, localisation="auto", resume=tmp_path)
+    assert as_before(again).localisation == "oracle"
+    assert as_before(Eval(resume=tmp_path, seeds=1)).localisation == "oracle"
+    assert as_before(replace(again, localisation="lidar")).localisation == "lidar"

@@ -15,6 +15,7 @@ from sim import world
 from sim.simulation import SimulatedWorld, Simulation
 
 LIDAR = Simulation(localisation="lidar")
+REAL = Simulation("real")
 
 
 def where(name="kitchen", *, vary_seed=None, reality=LIDAR):
@@ -88,6 +89,44 @@ def test_a_kept_map_that_others_could_exchange_says_nobody_where_the_robot_is(su
         os.chown(path, 65534, 65534)
         with pytest.raises(ConfigError, match="another user"):
             lidar_maps.needed(where("bench"))
+
+
+def settled(asked, name="kitchen", **how):
+    """Who tells it where it is, and what was told people."""
+    told: list[str] = []
+    found = lidar_maps.localised(where(name, reality=REAL), asked, tell=told.append, **how)
+    assert found.reality.localisation == found.world.localisation
+    assert (found.world.profile, found.world.vary_seed) == ("real", None)
+    return found.world.localisation, told
+
+
+def test_its_own_lidar_tells_it_where_a_map_is_and_an_oracle_elsewhere_which_is_said(surveyed):
+    assert settled("auto") == ("lidar", [])
+    by, told = settled("auto", "bench")
+    assert by == "oracle" and len(told) == 1
+    assert "oracle" in told[0] and "bench" in told[0] and "--localisation lidar" in told[0]
+    lidar_maps.needed(where("bench"), tell=lambda _: None)
+    assert settled("auto", "bench") == ("lidar", [])
+    by, told = settled("auto", "bench", shipped_only=True)
+    assert by == "oracle" and len(told) == 1
+
+
+def test_what_is_asked_for_is_done_and_needs_no_words(surveyed):
+    assert settled("oracle") == ("oracle", [])
+    assert settled("lidar", "bench") == ("lidar", [])
+    assert not surveyed, "it is led through when it starts, not before"
+
+
+def test_nothing_is_found_in_a_map_that_is_broken_or_of_somebody_else(surveyed, tmp_path):
+    path = lidar_maps.needed(where("bench"), tell=lambda _: None)
+    whole = path.read_bytes()
+    path.write_bytes(whole[:100])
+    assert settled("auto", "bench")[0] == "oracle"
+    path.write_bytes(whole)
+    assert settled("auto", "bench")[0] == "lidar"
+    tmp_path.chmod(0o777)
+    assert settled("auto", "bench")[0] == "oracle"
+    assert len(surveyed) == 1
 
 
 def test_the_robot_is_led_to_every_room_and_comes_back():
