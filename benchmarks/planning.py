@@ -13,7 +13,7 @@ import time
 from collections import Counter, defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 import typer
@@ -23,6 +23,7 @@ from rich.table import Table
 from robot.failures import Failure
 from robot.messages import ObjectInfo, Place, Side, WorldMap
 from robot.model import description
+from robot.planning import scene
 from robot.planning.requests import (
     ArmPlan,
     ArmRequest,
@@ -41,6 +42,7 @@ from robot.planning.requests import (
     Surroundings,
 )
 from robot.planning.robot_body import UPRIGHT, Body, Standing
+from robot.planning.scene import Scene, Touch
 from robot.planning.solve import Solver
 from robot.se3 import SE3
 from sim.simulation import Simulation
@@ -57,6 +59,17 @@ class Broken(Exception):
     """A chain that did not hold, at a named step."""
 
 
+class Counted(Scene):
+    """A scene that counts how often any is asked what touches what."""
+
+    checks = 0
+
+    def touches(self, *args: Any, **kwargs: Any) -> list[Touch]:
+        """Count, and answer."""
+        Counted.checks += 1
+        return super().touches(*args, **kwargs)
+
+
 @dataclass
 class Study:
     """Times of requests, and where chains broke."""
@@ -65,15 +78,22 @@ class Study:
     map: WorldMap
     rng: np.random.Generator
     seconds: dict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
+    checks: dict[str, list[int]] = field(default_factory=lambda: defaultdict(list))
+    moving_s: list[float] = field(default_factory=list)
+    clear: Counter[str] = field(default_factory=Counter)
     done: Counter[str] = field(default_factory=Counter)
     tried: Counter[str] = field(default_factory=Counter)
     broken: Counter[str] = field(default_factory=Counter)
 
     def ask(self, name: str, request: PlanRequest) -> PlanResult:
         """Plan, and keep the (process) time; raises Broken on a failure."""
-        begin = time.process_time()
+        begin, before = time.process_time(), Counted.checks
         answer = self.solver.solve(request)
         self.seconds[name].append(time.process_time() - begin)
+        self.checks[name].append(Counted.checks - before)
+        if isinstance(answer, ArmPlan):
+            self.moving_s.append(answer.duration_s)
+            self.clear[f"{100 * answer.clearance_m:.1f} cm: {name}"] += 1
         if isinstance(answer, Failure):
             raise Broken(f"{name}: {answer.code}: {answer.cause}")
         return answer
@@ -277,6 +297,7 @@ def main(
     seed: Annotated[int, typer.Option()] = 0,
 ) -> None:
     """Study how many picks and places have a whole chain of plans."""
+    scene.Scene = Counted
     solver = Solver(description.load())
     study = Study(solver, Simulation().world(world).map, np.random.default_rng(seed))
     surfaces = [place for place in study.map.places if not place.floor]
@@ -318,15 +339,18 @@ def report(study: Study) -> None:
     chains = Table("chain", "whole", "tried")
     for name, tried in study.tried.items():
         chains.add_row(name, str(study.done[name]), str(tried))
-    times = Table("request", "n", "median ms", "p95 ms", "max ms", title="process time")
+    head = ("median ms", "p95 ms", "max ms", "median checks", "p95 checks", "max checks")
+    times = Table("request", "n", *head, title="process time, and questions what touches what")
     for name, seconds in study.seconds.items():
-        ms = 1000.0 * np.array(seconds)
-        times.add_row(
-            name,
-            str(len(ms)),
-            *(f"{v:.0f}" for v in (np.median(ms), np.percentile(ms, 95), np.max(ms))),
-        )
+        both = (1000.0 * np.array(seconds), np.array(study.checks[name]))
+        cells = [
+            f"{v:.0f}" for row in both for v in (np.median(row), np.percentile(row, 95), max(row))
+        ]
+        times.add_row(name, str(len(seconds)), *cells)
     console.print(chains, times)
+    if study.moving_s:
+        console.print(f"an arm moves for {np.mean(study.moving_s):.2f} s a motion (mean)")
+        console.print("kept clear of everything:", *map(str, sorted(study.clear.items())))
     for cause, count in study.broken.most_common(20):
         console.print(f"{count:4d}  {cause}")
 

@@ -88,6 +88,7 @@ class SensedWatch:
                         tuple(round(float(q), 3) for q in positions)
                         for positions in result.positions_rad
                     ),
+                    clear_m=round(float(result.clearance_m), 3),
                 )
             case _:
                 pass

@@ -60,12 +60,14 @@ class ArmMotion(msgspec.Struct, frozen=True, kw_only=True):
         motors: their places in the order of the robot's motors.
         times_s: of the positions.
         positions: of each of the motors at these times [rad].
+        clear_m: what the path keeps from things that are not nearer at its ends, 0 if not known.
     """
 
     side: Side
     motors: tuple[int, ...]
     times_s: tuple[float, ...]
     positions: tuple[tuple[float, ...], ...]
+    clear_m: float = 0.0
 
 
 class Sensed(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):

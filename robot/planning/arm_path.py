@@ -3,86 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
-from dataclasses import dataclass, field
 
 import numpy as np
 
 from robot.failures import Failure, failure
+from robot.messages import Side
 from robot.planning import numerics, sampling
+from robot.planning.corridor import RESOLUTION_RAD, RUNGS, Corridor
 from robot.planning.requests import ArmPlan, ArmRequest
 from robot.planning.robot_body import Arm, Body
-from robot.planning.scene import HELD, Scene, Touch
+from robot.planning.scene import HELD, Touch
 from robot.planning.solids import solids_of
 from robot.planning.timing import Timed, rounded, time_path
 from robot.se3 import SE3, Array
 
-CLEARANCE_M = 0.012  # with less the fingers topple what they pass by
-SPLINE_CLEARANCE_M = 0.008
-"""The spline may stray from the path by the difference [m]."""
 GOAL_CLEARANCE_M = 0.003
 OVERLAP_M = 0.003
 """Start poses may overlap by this much: the world is not known better."""
-RESOLUTION_RAD = 0.02  # 0.05 let collisions through
 CUTS_RAD = (0.30, 0.12, 0.03)
-CHECKS = 12_000  # instead of a time, so that a seed gives the same plan on any machine
 ATTEMPTS = 3  # the spline of one path in six leaves what was checked
-TILT_RAD = 0.35
 LINE_M = 0.03
 SEEDS = 24
 GOALS = 3
-
-
-@dataclass(slots=True)
-class Corridor:
-    """Whether an arm's joint values are free; remembers what was in the way."""
-
-    scene: Scene
-    arm: Arm
-    allowed: frozenset[str]
-    slack: dict[tuple[str, str], float] = field(default_factory=dict)
-    ups: list[Array] = field(default_factory=list)
-    blocked: Counter[str] = field(default_factory=Counter)
-
-    def touches(self, q: Array | list[float]) -> list[Touch]:
-        """What the arm is too near to."""
-        self.scene.set_motors(self.arm.motors, q)
-        self.scene.update()
-        return self.scene.touches(
-            self.scene.arm_geoms(self.arm.side), allowed=self.allowed, slack=self.slack
-        )
-
-    def free(self, q: Array | list[float]) -> bool:
-        """Whether it is near nothing, and upright if it must be."""
-        touches = self.touches(q)
-        if touches:
-            self.blocked[touches[0].second] += 1
-            return False
-        return not self.ups or self._upright()
-
-    def _upright(self) -> bool:
-        up = self.scene.grasp_rotation(self.arm.side)[6:9]
-        if max(float(up @ wanted) for wanted in self.ups) >= math.cos(TILT_RAD):
-            return True
-        self.blocked["keeping it upright"] += 1
-        return False
-
-    def keep_upright(self, q: Array) -> None:
-        """From now on the hand's tilt must be about that at `q` (or at others so given)."""
-        self.scene.set_motors(self.arm.motors, q)
-        self.scene.update()
-        self.ups.append(self.scene.grasp_rotation(self.arm.side)[6:9].copy())
-
-    def line_free(self, a: Array, b: Array) -> bool:
-        """Whether the straight line between two free states is free."""
-        count = max(2, math.ceil(float(np.linalg.norm(b - a)) / RESOLUTION_RAD))
-        # Coarse steps first, then those between: what is in the way is met soonest.
-        order = sorted(range(1, count), key=lambda i: i & -i, reverse=True)
-        return self.free(b) and all(self.free(a + (b - a) * (i / count)) for i in order)
-
-    def all_free(self, path: Array) -> bool:
-        """Whether every state of a dense path is free."""
-        return all(self.free(q) for q in path)
 
 
 def plan_arm(body: Body, request: ArmRequest) -> ArmPlan | Failure:
@@ -95,7 +37,6 @@ def plan_arm(body: Body, request: ArmRequest) -> ArmPlan | Failure:
     solids = tuple(s for s in solids_of(request.around) if s.id not in skip)
     scene = body.scenes.get(solids, held)
     scene.pose(request.X_WB, request.q_start_rad)
-    scene.set_clearance(CLEARANCE_M)
     corridor = Corridor(scene, arm, frozenset(request.allowed))
     start = np.array(request.q_start_rad)[arm.motors]
     start = np.clip(start, arm.lower, arm.upper)
@@ -108,14 +49,24 @@ def plan_arm(body: Body, request: ArmRequest) -> ArmPlan | Failure:
     if request.keep_upright:
         corridor.keep_upright(start)
         corridor.keep_upright(goals[0])
-    timed = _find(body, corridor, request, start, goals)
-    if isinstance(timed, Failure):
-        return timed
+    timed: Timed | Failure | None = None
+    for rung in RUNGS:
+        wide = corridor.wider(rung.clearance_m, [start, goals[0]])
+        ends = [goals[0], *(q for q in goals[1:] if not wide.touches(q))]
+        timed = _find(body, wide, request, (start, ends), most_checks=rung.checks)
+        if isinstance(timed, Timed):
+            return _plan(timed, request.side, rung.clearance_m)
+    assert timed is not None
+    return timed
+
+
+def _plan(timed: Timed, side: Side, clearance_m: float) -> ArmPlan:
     return ArmPlan(
-        side=request.side,
+        side=side,
         times_s=tuple(float(t) for t in timed.times_s),
         positions_rad=tuple(tuple(float(v) for v in q) for q in timed.positions_rad),
         duration_s=float(timed.times_s[-1]),
+        clearance_m=clearance_m,
     )
 
 
@@ -126,9 +77,7 @@ def _admit(
     for touch in sorted(corridor.touches(q), key=lambda touch: touch.distance_m):
         if touch.distance_m < least_m:
             return _in_collision(touch, request, code)
-        pair = (touch.first, touch.second)
-        limit = touch.distance_m - 0.001
-        corridor.slack[pair] = min(corridor.slack.get(pair, np.inf), limit)
+        corridor.admit([touch])
     return None
 
 
@@ -224,10 +173,15 @@ def _solve(
 
 
 def _find(
-    body: Body, corridor: Corridor, request: ArmRequest, start: Array, goals: list[Array]
+    body: Body,
+    corridor: Corridor,
+    request: ArmRequest,
+    ends: tuple[Array, list[Array]],
+    *,
+    most_checks: int,
 ) -> Timed | Failure:
-    """The first motion whose spline is free, straight if possible."""
-    checks = 0
+    """The first motion from start to a goal whose spline is free, straight if possible."""
+    (start, goals), checks = ends, 0
     velocity, acceleration = _limits(body, corridor.arm, request.speed)
     for attempt in range(ATTEMPTS):
         corners = _straight(corridor, start, goals[0]) if attempt == 0 else None
@@ -240,7 +194,7 @@ def _find(
                 valid=corridor.free,
                 resolution=RESOLUTION_RAD,
                 seed=request.seed * ATTEMPTS + attempt,
-                checks=CHECKS,
+                checks=most_checks,
             )
             corners, checks = found.corners, checks + found.checks
         if corners is None:
@@ -297,10 +251,7 @@ def _timed(
     timed = Timed(timed.times_s, positions)
     dense = timed.sampled(3 * len(timed.times_s))
     dense = np.clip(dense, corridor.arm.lower, corridor.arm.upper)
-    corridor.scene.set_clearance(SPLINE_CLEARANCE_M)
-    free = corridor.all_free(dense)
-    corridor.scene.set_clearance(CLEARANCE_M)
-    return timed if free else None
+    return timed if corridor.spline_free(dense) else None
 
 
 def _limits(body: Body, arm: Arm, speed: float) -> tuple[Array, Array]:

@@ -28,6 +28,9 @@ OVER_SWEEP_CLEARANCE_M = (0.05, 0.03)
 OVER_CLEARANCE_M = 0.015
 """Of the arm without its hand, over an edge: the feet end 2 cm off, and the hand goes on lines that
 the elbow follows by itself. With 4 mm the forearm rubbed on the edge and pushed the robot up."""
+ROOMS_M = (0.03, 0.02)
+"""What the hand and the arm are liked to keep from everything but the thing, the most first: a
+laden arm sags by 1 cm, and an IMU that is askew has it lower still."""
 STEP_M = 0.05
 SWAY_CLEARANCE_M = 0.005
 """A body that steps sways by so much to both sides: as measured at the pelvis."""
@@ -57,10 +60,11 @@ class Checker:
         self.lean = self._reaching.leans[int(candidate.lean[0])]
         option: HandOption = problem.options[int(candidate.option[0])]
         self.option = option
-        self._grasped = piece_id(problem.object_id, option.piece)
+        self._grasped = frozenset({piece_id(problem.object_id, option.piece)})
         at = main.pose(0) @ option.X_GO @ problem.shape.X_BodyShape
         self.free = scenes.get(problem.others, thing=grasped(problem.object_id, problem.shape))
         self.free.move_thing(at)
+        self._thing = frozenset(one.id for one in grasped(problem.object_id, problem.shape))
         hand = self.body.description.hands[side]
         self._hand_names = (hand.body, *hand.finger_bodies, HELD)
         self.opened = hand.max_opening_m / hand.opening_per_motor
@@ -217,6 +221,23 @@ class Checker:
                     return touches[0].second
         return None
 
+    def room_m(self, q_back: Array, q_up: Array) -> float:
+        """What the arm keeps from things: one of `ROOMS_M`, else `APPROACH_CLEARANCE_M`.
+
+        With the open hand at its back, with the thing raised, and on the steps away from there.
+        """
+        scene, finger = self._after()
+        leaving = q_up if self.problem.kind == "pick" else q_back
+        for room_m in ROOMS_M:
+            near = self._touch(
+                self.free, q_back, self.opened, clearance_m=room_m, allowed=self._thing
+            )
+            near = near or self._touch(self.held, q_up, self.closed, clearance_m=room_m)
+            near = near or self._sweep(scene, leaving, finger, room_m)
+            if near is None:
+                return room_m
+        return APPROACH_CLEARANCE_M
+
     def _on_the_way_in(self, *, aside_m: tuple[float, ...] = (0.0,)) -> Iterator[SE3]:
         """Stances from the one wanted back to its standoff, so far to the left of the line."""
         X_WS = SE3.from_xy_yaw(*self.candidate.stance_of(0))
@@ -242,7 +263,7 @@ class Checker:
         X_WS: SE3 | None = None,
         share: float = 1.0,
         clearance_m: float = APPROACH_CLEARANCE_M,
-        allowed: str | None = None,
+        allowed: frozenset[str] = frozenset(),
         rest: bool = False,
     ) -> str | None:
         """What the arm (with `rest`: and the rest of the body) touches.
@@ -254,8 +275,7 @@ class Checker:
         if self.lean.last and clearance_m < OVER_CLEARANCE_M:
             slack = dict.fromkeys(product(self._hand_names, scene.solids), clearance_m)
         scene.set_clearance(OVER_CLEARANCE_M if slack else clearance_m)
-        names = frozenset({allowed} if allowed else ())
-        touches = scene.touches(scene.arm_geoms(self.side), allowed=names, slack=slack)
+        touches = scene.touches(scene.arm_geoms(self.side), allowed=allowed, slack=slack)
         if not touches and rest:
             scene.set_clearance(STAND_CLEARANCE_M)
             touches = scene.touches(scene.rest_geoms(self.side), solids_only=True)

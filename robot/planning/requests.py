@@ -298,7 +298,7 @@ class ArmRequest(msgspec.Struct, frozen=True, kw_only=True, tag=True):
         held: what the hand carries; it is kept clear of everything too.
         keep_upright: never tilt the held object by more than 0.35 rad from how it is.
         allowed: ids the arm and the held object may touch (the object about to be grasped is not:
-            it is kept clear of by 12 mm).
+            it is kept clear of as everything is, by 12 mm at the goal).
         near_rad: joint values that the solution for a pose should be close to, if any.
         speed: fraction of the arm's ordinary speed.
     """
@@ -320,12 +320,15 @@ class ArmPlan(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     """Joint positions over time, as `messages.MoveArm` takes them: times from now, the first 0.
 
     A C2 cubic spline through the points, at rest at both ends, stays inside the limits and free.
+    `clearance_m` is what the path keeps from everything that is not nearer at its start or its goal
+    (0: not known); the spline may come 4 mm nearer.
     """
 
     side: Side
     times_s: tuple[float, ...]
     positions_rad: tuple[Joints, ...]
     duration_s: float
+    clearance_m: float = 0.0
 
 
 PlanRequest: TypeAlias = BasePathRequest | LookRequest | PickRequest | PlaceRequest | ArmRequest

@@ -10,7 +10,7 @@ import numpy as np
 from robot.messages import Side
 from robot.model.body import SIDES
 from robot.planning import reach
-from robot.planning.checks import END, Checker
+from robot.planning.checks import END, ROOMS_M, Checker
 from robot.planning.handling_problem import LEAST_MARGIN, Choice, HandlingProblem, Tally
 from robot.planning.numerics import Mask
 from robot.planning.reach import Targets
@@ -33,6 +33,8 @@ OUTWARDS = 0.4
 """How far out it swings for a metre up."""
 WOBBLE_COST = 1.0
 SWAY_COST = 0.6
+TIGHT_COST_PER_M = 10.0
+"""Of each metre of room that is lacking: 0.18 where the arm passes things by 12 mm and no more."""
 STRAIN_COST = 2.0
 """Of a pose that leaves the arm nothing: more than all costs of one that does."""
 MAX_TURN_RAD = 1.2
@@ -213,7 +215,7 @@ def _closely(
             if touch is None:
                 come, go = (empty, laden) if picking else (laden, empty)
                 whole = replace(draft, q_ready=come.q, q_away=go.q)
-                best = _better(best, _swaying(checker, whole, problem))
+                best = _better(best, _swaying(checker, _tight(checker, whole), problem))
         if touch is not None:
             tally.touched[touch] += 1
     return best
@@ -227,6 +229,12 @@ def _swaying(checker: Checker, choice: Choice, problem: HandlingProblem) -> Choi
     if checker.swaying(choice.q_ready, leaving) is None:
         return choice
     return replace(choice, score=choice.score - SWAY_COST)
+
+
+def _tight(checker: Checker, choice: Choice) -> Choice:
+    """The same, worth less where the arm passes things more closely than it is liked to."""
+    lacking_m = ROOMS_M[0] - checker.room_m(choice.q_back, choice.q_up)
+    return replace(choice, score=choice.score - TIGHT_COST_PER_M * lacking_m)
 
 
 def _better(best: Choice | None, other: Choice) -> Choice:

@@ -192,7 +192,11 @@ def test_a_grasp_is_told_until_the_hand_has_it_or_nothing_is_to_be_done(how):
 def test_a_motion_of_an_arm_names_its_motors():
     watched = Watched()
     arm = ArmPlan(
-        side="right", times_s=(0.0, 1.0), positions_rad=((0.0,) * 7, (0.5,) * 7), duration_s=1.0
+        side="right",
+        times_s=(0.0, 1.0),
+        positions_rad=((0.0,) * 7, (0.5,) * 7),
+        duration_s=1.0,
+        clearance_m=0.02,
     )
     request = ArmRequest(side="right", q_start_rad=(), X_WB=SE3(), goal=(0.5,) * 7, around=AROUND)
     watched.watch.planned(request, arm)
@@ -201,6 +205,7 @@ def test_a_motion_of_an_arm_names_its_motors():
     assert told is not None
     names = [JUNO.motor_names[k] for k in told.motors]
     assert names == list(JUNO.groups["right_arm"]) and told.positions[-1] == (0.5,) * 7
+    assert told.clear_m == 0.02
 
 
 def test_numbers_of_numpy_are_written_as_numbers():

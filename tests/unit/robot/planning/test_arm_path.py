@@ -1,14 +1,19 @@
 """Arm motions are inside limits, free at four times the resolution, end at the goal, repeat."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
 from robot.failures import Failure
-from robot.messages import Side
+from robot.messages import Shape, Side
 from robot.model import description
+from robot.planning import arm_path
+from robot.planning.corridor import LEAST, RUNGS, STRAY_M, Rung
 from robot.planning.requests import ArmPlan, ArmRequest, Joints, Surroundings
 from robot.planning.robot_body import UPRIGHT, Body
+from robot.planning.scene import Touch
 from robot.planning.solids import solids_of
 from robot.planning.solve import Solver
 from robot.se3 import SE3
@@ -111,6 +116,64 @@ def test_an_object_is_kept_clear_of(solver: Solver) -> None:
         scene.set_motors(arm.motors, q)
         scene.update()
         assert scene.touches(scene.arm_geoms(SIDE)) == []
+
+
+def between_boxes(body: Body) -> ArmRequest:
+    """From hanging to over a table, past boxes on it: the way straight there is no way."""
+    tall = Shape(kind="box", size_m=(0.06, 0.06, 0.24))
+    x, y = OVER_TABLE
+    boxes = (
+        on_table(x - 0.06, y + 0.19, name="left", shape=tall),
+        on_table(x - 0.06, y - 0.19, name="right", shape=tall),
+    )
+    return request(body, over_table(0.1), around=surroundings(*boxes))
+
+
+def too_near(body: Body, asked: ArmRequest, plan: ArmPlan) -> list[Touch]:
+    """What the motion comes nearer to than it says, but for what is as near at one of its ends."""
+    arm, scene = body.arms[SIDE], body.scenes.get(solids_of(asked.around))
+    scene.pose(asked.X_WB, asked.q_start_rad)
+
+    def touches(q: np.ndarray, clearance_m: float) -> list[Touch]:
+        scene.set_clearance(clearance_m)
+        scene.set_motors(arm.motors, q)
+        scene.update()
+        return scene.touches(scene.arm_geoms(SIDE))
+
+    path, kept_m = dense(plan, 0.01), plan.clearance_m
+    near = {(one.first, one.second) for q in (path[0], path[-1]) for one in touches(q, kept_m)}
+    seen_m = kept_m - STRAY_M - 0.004  # between the points at which the spline is checked
+    passed = [touches(q, seen_m) for q in path]
+    # MuJoCo's distance of two meshes is now and then far off for a single posture.
+    twice = [
+        one
+        for before, now in pairwise(passed)
+        for one in now
+        if any((one.first, one.second) == (other.first, other.second) for other in before)
+    ]
+    return [one for one in twice if (one.first, one.second) not in near]
+
+
+def test_where_there_is_room_three_centimetres_are_kept(solver: Solver) -> None:
+    for goal in (over_table(), over_table(0.3)):
+        asked = request(solver.body, goal)
+        plan = solve(solver, asked)
+        assert plan.clearance_m == 0.03
+        assert too_near(solver.body, asked, plan) == []
+
+
+def test_where_there_is_no_way_with_so_much_room_less_is_kept_and_said(
+    solver: Solver, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = between_boxes(solver.body)
+    wide = solve(solver, asked)
+    assert wide.clearance_m == 0.03
+    no_search = tuple(Rung(rung.clearance_m, 0) for rung in RUNGS[:-1])
+    monkeypatch.setattr(arm_path, "RUNGS", (*no_search, LEAST))
+    narrow = solve(solver, asked)
+    assert narrow.clearance_m in (0.02, 0.012)
+    for plan in (wide, narrow):
+        assert too_near(solver.body, asked, plan) == []
 
 
 def test_a_held_cup_stays_upright(solver: Solver) -> None:
