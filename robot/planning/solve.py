@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 from robot.failures import failure
 from robot.model.description import RobotDescription
 from robot.planning.arm_path import plan_arm
@@ -16,7 +18,8 @@ from robot.planning.requests import (
     PlanRequest,
     PlanResult,
 )
-from robot.planning.robot_body import Body
+from robot.planning.robot_body import UPRIGHT, Body
+from robot.planning.stances import posture_of
 from robot.planning.views import plan_look
 
 
@@ -26,6 +29,20 @@ class Solver:
     def __init__(self, description: RobotDescription) -> None:
         """Compile the robot."""
         self.body = Body(description)
+
+    def warm_up(self) -> None:
+        """Work out what every plan needs and keeps: the robot's form, and how it stands to reach.
+
+        The first pick took three times as long as those after it. An answer is the same without.
+        """
+        body = self.body
+        body.scenes.get(())
+        body.standing(UPRIGHT)
+        if not body.description.hands:
+            return
+        for side, lean in product(body.arms, body.description.handy.reaching.leans):
+            body.standing(UPRIGHT, side)
+            body.standing(posture_of(lean, side), side)
 
     def solve(self, request: PlanRequest) -> PlanResult:
         """Plan; an error in planning itself comes back as an `internal` failure."""

@@ -120,6 +120,7 @@ def _work(description: RobotDescription, pipe: Connection) -> None:
     parent = multiprocessing.parent_process()
     tie_to_parent((parent.pid if parent is not None else None) or os.getppid())
     solver = Solver(description)
+    solver.warm_up()  # before it is ready: a request's time is counted from when it is sent
     try:
         pipe.send(None)
         while True:
