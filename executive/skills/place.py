@@ -41,6 +41,8 @@ ELSEWHERE = ("goal_in_collision", "out_of_reach", "no_path", "planner_timeout")
 MOVE_OVER_COST_PER_M = 0.5
 """Cost of walking to another stance once the robot stands before the place."""
 PLACED_WITHIN_M = 0.03
+FULL = ("no_free_spot", "goal_in_collision", "out_of_reach", "no_stance")
+"""What another board of the same shelf is tried for."""
 UPRIGHT_RAD = 0.25
 SPOT_SIZE_M = 0.2
 
@@ -48,11 +50,13 @@ SPOT_SIZE_M = 0.2
 class PlaceParams(SkillParams, frozen=True, kw_only=True):
     """Put what is held on a place of the map, or at an exact pose X_WO of its own.
 
-    Of the place only the `spots` will do, x and y in W [m]; none: all of it.
+    Of the place only the `spots` will do, x and y in W [m]; none: all of it. Where there is no way
+    to put it there, the places `or_place_ids` will do as well, the first in which there is one.
     """
 
     object_id: str
     place_id: str | None = None
+    or_place_ids: tuple[str, ...] = ()
     X_WO: SE3 | None = None
     spots: tuple[tuple[float, float], ...] = ()
 
@@ -144,17 +148,20 @@ class PutDown(ScriptedSkill[PlaceParams]):
             return
         check_grips(body)
         yield from stow_arms(body)
-        plan = yield from self._bring(info, place, held)
+        others = tuple(map(body.place, self.parameters.or_place_ids))
+        place, plan = yield from self._bring(info, (place, *others), held)
         yield from self._let_go(info, plan, held)
         body.progress = 0.8
         yield from withdraw(body, plan, posture_rad(body, plan.side, HOME), what=place.name)
         yield from self._verify(info, place, plan.X_WO)
 
-    def _bring(self, info: ObjectInfo, place: Place, held: Held) -> Script[PlacePlan]:
+    def _bring(
+        self, info: ObjectInfo, places: tuple[Place, ...], held: Held
+    ) -> Script[tuple[Place, PlacePlan]]:
         """Go there and lower it; plans again, for another spot or stance, if this one is taken."""
         body = self.body
         for attempt in range(1 + REPLANS):
-            plan = yield from self._plan(place, held, attempt=attempt)
+            place, plan = yield from self._choose(places, held, attempt=attempt)
             body.progress = 0.1
             yield from approach(body, plan, what=place.name)
             body.progress = 0.5
@@ -166,8 +173,26 @@ class PutDown(ScriptedSkill[PlaceParams]):
                     raise end
                 body.progress = 0.1
             else:
-                return plan
+                return place, plan
         raise AssertionError("unreachable")
+
+    def _choose(
+        self, places: tuple[Place, ...], held: Held, *, attempt: int
+    ) -> Script[tuple[Place, PlacePlan]]:
+        """A plan for the first of the places that has room; gives up with why none has."""
+        reasons: list[Failure] = []
+        for place in places:
+            self.body.phase = f"planning how to put it on the {place.name}"
+            if reasons:
+                self.body.phase += f", as {reasons[-1].cause}"
+            try:
+                return place, (yield from self._plan(place, held, attempt=attempt))
+            except GaveUp as end:
+                if end.failure.code not in FULL:
+                    raise
+                reasons.append(end.failure)
+        cause = "; ".join(reason.cause for reason in reasons)
+        raise GaveUp(msgspec.structs.replace(reasons[0], cause=cause))
 
     def halt(self) -> Script[None]:
         """A hand that has begun to let go lets go and draws back before the body rests."""
@@ -200,7 +225,6 @@ class PutDown(ScriptedSkill[PlaceParams]):
         return track.X_WO if off_m <= PLACED_WITHIN_M and stands_on(track.X_WO, place) else None
 
     def _plan(self, place: Place, held: Held, *, attempt: int) -> Script[PlacePlan]:
-        self.body.phase = f"planning how to put it on the {place.name}"
         known = held_in(self.body, held.side)
         assert known is not None
         request = PlaceRequest(

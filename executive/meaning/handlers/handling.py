@@ -181,9 +181,11 @@ def _put(
         _check_inside(target, scene)
     if not places_at(target, scene, near=False):
         return _carry_to(info, query, target, scene)
-    place = _best_surface(info, target, scene)
+    place, *others = _surfaces_for(info, target, scene)
     name = info.full_name
-    params: PlaceParams | Bound = PlaceParams(object_id=info.id, place_id=place.id)
+    params: PlaceParams | Bound = PlaceParams(
+        object_id=info.id, place_id=place.id, or_place_ids=tuple(one.id for one in others)
+    )
     if part is not None:
         params = part_of_place(info, place, part)
     put = about(info, f"put {name} on the {place.name}", params, carries=True)
@@ -276,12 +278,16 @@ def _check_inside(target: str, scene: Scene) -> None:
         )
 
 
-def _best_surface(info: ObjectInfo, target: str, scene: Scene) -> Place:
-    """Of the surfaces of that name the one that is easiest to reach and high enough."""
+def _surfaces_for(info: ObjectInfo, target: str, scene: Scene) -> tuple[Place, ...]:
+    """The surfaces of that name that are high enough, the one that is easiest to reach first.
+
+    The others are those of the same piece of furniture: for when it is full.
+    """
     boards = places_at(target, scene, near=False)
     height_m = info.shape.size_m[2]
     free = [place for place in boards if place.clearance_m > height_m + 0.03]
     if not free:
         text = f"{info.full_name} is {height_m:.2f} m high and does not fit there"
         raise cannot("no_free_spot", text, clearance_m=boards[0].clearance_m)
-    return min(free, key=lambda place: abs(place.X_WP.p[2] - COMFORTABLE_HEIGHT_M))
+    free.sort(key=lambda place: abs(place.X_WP.p[2] - COMFORTABLE_HEIGHT_M))
+    return tuple(one for one in free if one is free[0] or one.of in (free[0].of, free[0].id))

@@ -23,7 +23,7 @@ from intents.state import RobotState
 from robot.failures import Failure
 from robot.messages import Track, WorldState
 from robot.se3 import SE3
-from tests.fakes.worlds import WHERE, world_map
+from tests.fakes.worlds import WHERE, MappedWorld, world_map
 
 
 def steps(text: str) -> list[str]:
@@ -255,6 +255,25 @@ def test_between_the_boards_of_a_shelf_is_in_it(text):
     *_, put = (errand.params for errand in errands(outcome.task))
     assert isinstance(put, PlaceParams)
     assert put.place_id.startswith("shelf")
+
+
+def test_the_boards_of_a_shelf_will_all_do_and_one_that_was_named_alone():
+    known = world_map()
+    _, upper = (place for place in known.places if place.of == "shelf")
+    shelf = replace(upper, id="shelf", name="bookcase")
+    world = MappedWorld("test")
+    world.map = replace(known, places=(*known.places, shelf))
+    where = replace(WHERE, world=world)
+    for text, places in (
+        ("put the red cup on the bookcase", {"shelf", "shelf_lower", "shelf_upper"}),
+        ("put the red cup on the lower shelf", {"shelf_lower"}),
+        ("put the red cup on the table", {"table"}),
+    ):
+        outcome = request(text, where)
+        assert not isinstance(outcome, Refused), outcome
+        *_, put = (errand.params for errand in errands(outcome.task))
+        assert isinstance(put, PlaceParams)
+        assert {put.place_id, *put.or_place_ids} == places
 
 
 def test_what_is_taken_to_be_put_somewhere_is_taken_for_that_place():

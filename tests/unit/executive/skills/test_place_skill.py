@@ -158,6 +158,32 @@ def test_the_planners_refusal_is_reported_and_the_object_kept(stage, code):
     assert stage.puppet.holding
 
 
+def test_where_one_board_is_full_it_goes_on_another_that_will_do(stage):
+    full = failure("no_free_spot", "the table has no free spot 12 cm wide")
+    stage.planner.failures[PlaceRequest] = [full]
+    wanted = PlaceParams(object_id="cup", place_id="table", or_place_ids=("counter",))
+    assert stage.run(wanted).status == "succeeded"
+    assert math.dist(stage.puppet.things["cup"].X_WO.p, (2.0, 2.5, TABLE_M + 0.05)) < 0.03
+    assert f"planning how to put it on the counter, as {full.cause}" in stage.phases
+
+
+def test_where_all_that_would_do_are_full_each_says_why(stage):
+    reasons = [failure("no_free_spot", "the table is full"), failure("out_of_reach", "too deep")]
+    stage.planner.failures[PlaceRequest] = reasons
+    wanted = PlaceParams(object_id="cup", place_id="table", or_place_ids=("counter",))
+    report = stage.run(wanted)
+    assert (report.failure.code, report.failure.cause) == (
+        "no_free_spot", "the table is full; too deep",
+    )  # fmt: skip
+    assert stage.puppet.holding
+
+
+def test_another_board_is_no_cure_for_a_planner_that_broke(stage):
+    stage.planner.failures[PlaceRequest] = [failure("internal", "it broke")]
+    wanted = PlaceParams(object_id="cup", place_id="table", or_place_ids=("counter",))
+    assert stage.run(wanted).failure.code == "internal"
+
+
 def test_who_stands_before_the_place_is_walked_up_to(stage):
     stage.planner.failures[PlaceRequest] = [failure("no_stance", "Ann stands there")]
     assert stage.run(ON_COUNTER).status == "succeeded"
