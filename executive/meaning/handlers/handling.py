@@ -19,6 +19,7 @@ from executive.trees.parts import Branch, Errand, Part, Series
 from intents import goals
 from intents.grounding import HOW_WORDS
 from robot.messages import ObjectInfo, Place
+from robot.se3 import SE3
 
 COMFORTABLE_HEIGHT_M = 0.8
 COVERED_M = 1.0
@@ -290,4 +291,8 @@ def _surfaces_for(info: ObjectInfo, target: str, scene: Scene) -> tuple[Place, .
         text = f"{info.full_name} is {height_m:.2f} m high and does not fit there"
         raise cannot("no_free_spot", text, clearance_m=boards[0].clearance_m)
     free.sort(key=lambda place: abs(place.X_WP.p[2] - COMFORTABLE_HEIGHT_M))
-    return tuple(one for one in free if one is free[0] or one.of in (free[0].of, free[0].id))
+    chosen: dict[SE3, Place] = {}
+    for one in free:
+        if one is free[0] or one.of in (free[0].of, free[0].id):
+            chosen.setdefault(one.X_WP, one)  # a shelf is one of its boards, too
+    return tuple(chosen.values())
