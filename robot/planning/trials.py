@@ -232,7 +232,12 @@ def _swaying(checker: Checker, choice: Choice, problem: HandlingProblem) -> Choi
 
 
 def _tight(checker: Checker, choice: Choice) -> Choice:
-    """The same, worth less where the arm passes things more closely than it is liked to."""
+    """The same, worth less where the arm passes things more closely than it is liked to.
+
+    Over an edge it has clearances of its own, and the search there is the longest.
+    """
+    if checker.lean.last:
+        return choice
     lacking_m = ROOMS_M[0] - checker.room_m(choice.q_back, choice.q_up)
     return replace(choice, score=choice.score - TIGHT_COST_PER_M * lacking_m)
 

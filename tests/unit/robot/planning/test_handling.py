@@ -10,10 +10,11 @@ import pytest
 
 from robot.failures import Failure
 from robot.messages import PersonInfo, Piece, Shape, Side
-from robot.planning import handling
-from robot.planning.checks import END
+from robot.planning import handling, trials
+from robot.planning import place as place_planning
+from robot.planning.checks import END, Checker
 from robot.planning.floor import Floor
-from robot.planning.handling_problem import Choice
+from robot.planning.handling_problem import Choice, HandlingProblem
 from robot.planning.requests import (
     BodyPosture,
     Held,
@@ -593,3 +594,36 @@ def test_a_cup_in_a_cage_names_the_cage(solver: Solver) -> None:
 )
 def test_what_is_in_a_hands_way_is_told_without_inner_names(blockers, words) -> None:
     assert handling._fails_by(blockers) == words
+
+
+def rooms_m(
+    solver: Solver, monkeypatch: pytest.MonkeyPatch, *, cost_per_m: float
+) -> dict[str, float]:
+    """What the arm keeps from things where a cup is put on a board, and beside one on the table."""
+    found: list[float] = []
+    search = handling.search
+
+    def noted(body: Body, problem: HandlingProblem, *args, **more) -> Choice | Failure:
+        choice = search(body, problem, *args, **more)
+        assert isinstance(choice, Choice), choice
+        checker = Checker(body, problem)
+        checker.prepare(choice.candidate, choice.side, choice.main)
+        found.append(checker.room_m(choice.q_back, choice.q_up))
+        return choice
+
+    with monkeypatch.context() as patched:
+        patched.setattr(trials, "TIGHT_COST_PER_M", cost_per_m)
+        patched.setattr(place_planning, "search", noted)
+        for on in (TABLE, BOARD[BOARDS_M[0]], BOARD[BOARDS_M[1]]):
+            assert isinstance(place(solver, on, surroundings()), PlacePlan)
+    return dict(zip(("table", "lower board", "upper board"), found, strict=True))
+
+
+def test_where_there_is_a_choice_the_arm_has_the_more_room(
+    solver: Solver, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A hand 12 mm past the edge of a board came 1 cm lower, stuck, and the robot fell."""
+    liked = rooms_m(solver, monkeypatch, cost_per_m=trials.TIGHT_COST_PER_M)
+    any_way = rooms_m(solver, monkeypatch, cost_per_m=0.0)
+    assert all(liked[on] >= any_way[on] for on in liked), (liked, any_way)
+    assert sum(liked.values()) > sum(any_way.values()), (liked, any_way)
