@@ -175,7 +175,7 @@ def _lacks(text: str, index: NameIndex, before: Attempt, both: Both, likely: flo
     goals = both.other.goals
     is_short = len(text.split()) <= SHORT and _offers(before) == goals
     guessed = both.likely < FOUND
-    guessed |= isinstance(before.error, Idle) or before.tells or _only_tells(text, both)
+    guessed |= isinstance(before.error, Idle) or before.tells or _has_no_request(text, both)
     guessed |= is_reported(text) or only_asks(text, goals) or _calls_somebody(text, both)
     says = any(isinstance(goal, Say) for goal in each(goals))
     guessed |= likely < SURER and (says or _measures(text) or _loses_limit(text, both))
@@ -198,7 +198,7 @@ def _is_by_the_way(goal: Goal) -> bool:
     return isinstance(goal, _BY_THE_WAY) and not (isinstance(goal, Wait) and goal.duration_s)
 
 
-def _only_tells(text: str, both: Both) -> bool:
+def _has_no_request(text: str, both: Both) -> bool:
     """Whether a sentence has no form of a request: "the scarf is needed for the party"."""
     words = _WORDS.findall(text.lower().replace("’", "'"))
     signs = plainness(text, [name.said for name in both.names], 1, "")

@@ -13,7 +13,8 @@ from intents.goals import Person
 
 TO = lexicon.words("to for with")
 """What may stand before a listener."""
-_QUESTION_WORDS = lexicon.words("question questions quiz quizzes query queries")
+QUESTION_WORDS = lexicon.words("question questions quiz quizzes query queries")
+"""What is answered: behind "her" one of these is a thing, and she no listener."""
 _MESSAGE_BEGINS = lexicon.words("that to about if whether how what where when why who , .")
 """What stands between a listener and what is to be told."""
 _SENDERS = (["for", "me"], ["for", "us"])
@@ -45,7 +46,7 @@ def listeners(text: Text, at: int, scope: Scope) -> list[NounPhrase]:
 
 def listener_at(text: Text, at: int, scope: Scope) -> NounPhrase | None:
     """The person at a word, if one is there."""
-    if text.word(at) in ("his", "her") and text.word(at + 1) in _QUESTION_WORDS:
+    if text.word(at) in ("his", "her") and text.word(at + 1) in QUESTION_WORDS:
         return None
     if text.word(at) == "where":
         return None

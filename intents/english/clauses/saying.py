@@ -8,6 +8,7 @@ from intents.english.clauses.asking import answer_told, asking
 from intents.english.clauses.compounds import condition
 from intents.english.clauses.conditions import IF
 from intents.english.clauses.listeners import (
+    QUESTION_WORDS,
     TO,
     addressed_end,
     last_listener,
@@ -38,7 +39,6 @@ _ABOUT = lexicon.phrases(
     "about,of,know,know about,as to,regarding,that,on,to know,with,out,me with"
 )
 _SEVERAL = 2
-_QUESTION_WORDS = lexicon.words("question questions quiz quizzes query queries")
 _LETTERS = lexicon.words(
     "message messages mail mails email emails letter phone phones telephone telephones call calls "
     "tweet chat door doors doorbell bell intercom buzzer"
@@ -366,9 +366,9 @@ def answer(text: Text, at: int, scope: Scope) -> Found:
     }
     while text.word(at) in skipped:
         at += 1
-    if text.word(at) in _QUESTION_WORDS or text.word(at - 1) == "questions":
+    if text.word(at) in QUESTION_WORDS or text.word(at - 1) == "questions":
         what = "quiz" if text.word(at).startswith("quiz") else "question"
-        at += text.word(at) in _QUESTION_WORDS
+        at += text.word(at) in QUESTION_WORDS
         person, end = _asker(text, at, scope, person)
         return [Answer(what=what, person=person)], end
     if asks:

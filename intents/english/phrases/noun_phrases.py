@@ -23,8 +23,6 @@ _EXCEPT = lexicon.phrases(
     "except,except for,apart from,other than,excluding,save for,aside from,"
     "with the exception of,not counting,leaving out,different from,different to,different than"
 )
-_BUT = lexicon.words("but")
-"""Behind "all" and "everything" alone: a bar is a place as well."""
 _IS = lexicon.words("is are was were")
 _OF_A_PART = ("on", "at")
 """*On* the left of the shelf is on it; *left of* the oven, or *to* its left, is beside it."""
@@ -301,7 +299,7 @@ def _except(text: Text, phrase: NounPhrase, at: int) -> int | None:
     """All pens *except the red ones*; every dish *but the bowl*."""
     start = text.phrase_end(_EXCEPT, at)
     whatever = phrase.count == "all" or phrase.said in SOMETHING or phrase.determiner == "any"
-    if start is None and text.word(at) in _BUT and whatever:
+    if start is None and text.word(at) == "but" and whatever:
         start = at + 1
     thing = phrase.noun == "object" or phrase.name("object", "category")
     inner = bare_phrase(text, start) if start and thing else None

@@ -5,7 +5,7 @@ from collections.abc import Collection, Mapping
 from copy import copy
 from typing import TypeVar
 
-from intents.english.words.asked_conditions import being_there, conditional_questions
+from intents.english.words.asked_conditions import conditional_questions
 from intents.english.words.asking import plainly_asked
 from intents.english.words.contrasts import but_this
 from intents.english.words.courtesy import ADDRESSES, courtesy_end
@@ -32,6 +32,7 @@ from intents.english.words.notes import in_sentences
 from intents.english.words.particles import without_particles
 from intents.english.words.pauses import pauses_as_waits
 from intents.english.words.precise import plain_quantities
+from intents.english.words.presence import being_there
 from intents.english.words.repairs import as_one_marker, repaired
 from intents.english.words.singling_out import singled_out
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
