@@ -11,6 +11,7 @@ is simulated has nothing to say to it.
 
 from __future__ import annotations
 
+import contextlib
 import json
 from collections import deque
 from pathlib import Path
@@ -75,6 +76,15 @@ class ZenohSubscription(Generic[M]):
             self._queue.append(message)
 
 
+def leave(session: zenoh.Session) -> None:
+    """Close a session of zenoh, which now and then gives up on that after 10 s (its issue 2675).
+
+    Whoever leaves has more to put down than this; the sockets go with the process.
+    """
+    with contextlib.suppress(zenoh.ZError):
+        session.close()
+
+
 class ZenohBus(Closing):
     """One process's end of the bus."""
 
@@ -118,14 +128,14 @@ class ZenohBus(Closing):
         return reader
 
     def close(self) -> None:
-        """Leave the bus; subscriptions keep what they have."""
+        """Leave the bus; subscriptions keep what they have. What zenoh makes of it stops nobody."""
         if self._session is None:
             return
         for reader in self._readers:
             reader.close()
         session, self._session = self._session, None
         self._writers.clear()
-        session.close()
+        leave(session)
 
     def _declare(self, topic: Topic[Any]) -> zenoh.Publisher:
         """A publisher: commands and states go before images."""

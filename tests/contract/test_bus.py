@@ -7,6 +7,7 @@ from pathlib import Path
 
 import msgspec
 import pytest
+import zenoh
 
 from robot.bus import topics
 from robot.bus.bus import Bus, LocalBus
@@ -210,3 +211,16 @@ def test_zenoh_listens_on_no_network(tmp_path: Path):
     before = listening()
     with ZenohBus("executive", tmp_path), ZenohBus("plant", tmp_path):
         assert not listening() - before
+
+
+def test_zenoh_that_cannot_close_stops_nobody_from_leaving(tmp_path: Path):
+    class Stuck:
+        def close(self) -> None:
+            raise zenoh.ZError("close operation timed out!")
+
+    bus = ZenohBus("executive", tmp_path)
+    bus._session, session = Stuck(), bus._session  # pyright: ignore[reportAttributeAccessIssue]
+    bus.close()
+    with pytest.raises(BusError, match="closed"):
+        bus.publish(*MESSAGES[0])
+    session.close()

@@ -18,6 +18,7 @@ from zenoh.ext import CacheConfig, MissDetectionConfig, declare_advanced_publish
 
 from executive.frontends.ros2.cdr import encode
 from executive.frontends.ros2.naming import Attachment, Endpoint, Node, Qos
+from robot.bus.zenoh_bus import leave
 from robot.closing import Closing
 from robot.errors import BusError
 
@@ -196,7 +197,7 @@ class Network(Closing):
     def close(self) -> None:
         """Be gone."""
         if not self._session.is_closed():
-            self._session.close()
+            leave(self._session)
 
     def _endpoint(self, role: Any, topic: str, interface: str, qos: Qos) -> Endpoint:
         self._number += 1
