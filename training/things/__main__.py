@@ -3,7 +3,7 @@
 Scenes are rendered into a folder (again only those that are missing), the finder learns from them,
 then the namer from what the finder finds; thresholds are chosen on other scenes, figures told of
 others again, with rooms and kinds that were never learnt. With `--ship` the networks take the place
-of those in the package.
+of those in the package. JAX learns on an accelerator where it finds one, and on one core elsewhere.
 """
 
 from __future__ import annotations
@@ -29,10 +29,11 @@ from robot.perception.things.networks import Finder, Namer
 from training.things import export, finding, graphs, judging, naming
 from training.things.frames import load
 from training.things.networks import Learnt
-from training.things.rendering import bar, frames, render, render_homes
+from training.things.rendering import frames, render, render_homes
 from training.things.splits import family
+from training.things.working import bar
 
-BATCH = 96
+STAGES = ("render", "finder", "namer", "choose", "judge")
 WALKS_FROM = 50_000
 """The seed of the first walk: none of these scenes is in the other pictures."""
 MOST_WRONG = 0.005
@@ -59,28 +60,32 @@ def main() -> int:
     asked.add_argument("--others", type=int, default=40, help="to choose on, and to judge by")
     asked.add_argument("--walks", type=int, default=20, help="to things, to judge by")
     asked.add_argument("--homes", type=int, default=4, help="made by another generator, likewise")
-    asked.add_argument("--finder-steps", type=int, default=300, help="of 8 pictures")
-    asked.add_argument("--namer-steps", type=int, default=600, help=f"of {BATCH} crops")
-    asked.add_argument("--jobs", type=int, default=1, help="processes that render")
+    asked.add_argument("--finder-steps", type=int, default=300)
+    asked.add_argument("--finder-batch", type=int, default=8, help="pictures of a step")
+    asked.add_argument("--namer-steps", type=int, default=600)
+    asked.add_argument("--namer-batch", type=int, default=96, help="crops of a step")
+    asked.add_argument("--jobs", type=int, default=1, help="processes that render and cut out")
     asked.add_argument("--minutes", type=float, default=math.inf, help="a network, at most")
     asked.add_argument("--seed", type=int, default=1)
-    asked.add_argument("--only", choices=("render", "finder", "namer", "judge"), action="append")
+    asked.add_argument("--only", choices=STAGES, action="append")
     asked.add_argument("--ship", action="store_true", help="into the package")
     options = asked.parse_args()
-    only = options.only or ("render", "finder", "namer", "judge")
+    only = options.only or STAGES
     home: Path = shipped.HERE if options.ship else options.folder
     finder, namer = home / shipped.FINDER.name, home / shipped.NAMER.name
     sets = _rendered(options)
     if "finder" in only:
         shape: tuple[Any, ...] = ("rows", "columns", SEEN)
-        made = finding.learn(sets.learn, steps=options.finder_steps, seed=options.seed,
-                             minutes=options.minutes)  # fmt: skip
+        made = finding.learn(
+            finding.gathered(sets.learn, jobs=options.jobs), steps=options.finder_steps,
+            batch=options.finder_batch, seed=options.seed, minutes=options.minutes,
+        )  # fmt: skip
         learnt = _learn("learn the finder", made, options.finder_steps)
         export.write(finder, finding.GRAPH, learnt, {graphs.IMAGE: shape}, {})
     if "namer" in only:
-        learnt = _named(sets, Finder(finder), options)
-        _write_namer(namer, learnt, {"sure_kind": 0.9, "sure_family": 0.9, "heat": 1, "spread": 1})
-        _write_namer(namer, learnt, _chosen(Eyes(Finder(finder), Namer(namer)), sets.choose))
+        _write_namer(namer, _named(sets, finder, options))
+    if "choose" in only:
+        export.note(namer, _chosen(Eyes(Finder(finder), Namer(namer)), sets.choose))
     if "judge" in only:
         _judge(Eyes(Finder(finder), Namer(namer)), sets)
         sizes = [round(path.stat().st_size / 1e6, 2) for path in (finder, namer)]
@@ -90,27 +95,27 @@ def main() -> int:
 
 def _rendered(options: argparse.Namespace) -> Sets:
     """Every picture there has to be; those that are there stay."""
-    folder, jobs, others = options.folder, options.jobs, options.others
+    folder, jobs = options.folder, options.jobs
+    only = set(options.only or STAGES)
+    learns, judges = only & {"render", "finder", "namer"}, only & {"render", "choose", "judge"}
     return Sets(
-        render(folder, "train", options.first, options.scenes, jobs=jobs),
-        render(folder, "choose", 0, others, jobs=jobs),
-        render(folder, "judge", 0, others, jobs=jobs),
-        render(folder, "judge", WALKS_FROM, options.walks, jobs=jobs, walks=True),
-        render_homes(folder, 0, options.homes, jobs=jobs),
+        render(folder, "train", options.first, options.scenes if learns else 0, jobs=jobs),
+        render(folder, "choose", 0, options.others if judges else 0, jobs=jobs),
+        render(folder, "judge", 0, options.others if judges else 0, jobs=jobs),
+        render(folder, "judge", WALKS_FROM, options.walks if judges else 0, jobs=jobs, walks=True),
+        render_homes(folder, 0, options.homes if judges else 0, jobs=jobs),
     )
 
 
-def _named(sets: Sets, finder: Finder, options: argparse.Namespace) -> Learnt:
+def _named(sets: Sets, finder: Path, options: argparse.Namespace) -> Learnt:
     """Cut out what the finder finds, and learn what it is."""
-    with bar() as progress:
-        every = progress.track(sets.learn, description="cut things out")
-        rng = np.random.default_rng(options.seed)
-        files = (frame for path in every for frame in load(path))
-        lessons = naming.gathered(naming.lessons(files, finder, rng))
+    lessons = naming.taught(sets.learn, finder, seed=options.seed, jobs=options.jobs)
     told = np.bincount(lessons.names, minlength=len(naming.CLASSES))
     print(f"{len(lessons.names)} crops, {told[-2]} of no kind, {told[-1]} of nothing")
-    made = naming.learn(lessons, steps=options.namer_steps, batch=BATCH, seed=options.seed,
-                        minutes=options.minutes, since=options.namer_from)  # fmt: skip
+    made = naming.learn(
+        lessons, steps=options.namer_steps, batch=options.namer_batch, seed=options.seed,
+        minutes=options.minutes, since=options.namer_from,
+    )  # fmt: skip
     return _learn("learn the namer", made, options.namer_steps)
 
 
@@ -167,11 +172,11 @@ def _chosen(eyes: Eyes, choose: list[Path]) -> dict[str, Any]:
     return {"sure_kind": sure.kind, "sure_family": sure.family, "heat": heat, "spread": spread}
 
 
-def _write_namer(path: Path, learnt: Learnt, chosen: dict[str, Any]) -> None:
+def _write_namer(path: Path, learnt: Learnt) -> None:
     families = [family(one) if one not in (naming.UNKNOWN, naming.NOTHING) else one
                 for one in naming.CLASSES]  # fmt: skip
-    notes = {name: str(value) for name, value in chosen.items()}
-    notes |= {"classes": ",".join(naming.CLASSES), "families": ",".join(families)}
+    notes = {"classes": ",".join(naming.CLASSES), "families": ",".join(families),
+             "sure_kind": "0.9", "sure_family": "0.9", "heat": "1", "spread": "1"}  # fmt: skip
     shapes = {graphs.IMAGE: (SIDE_PX, SIDE_PX, CHANNELS), graphs.NUMBERS: (NUMBERS,)}
     export.write(path, naming.GRAPH, learnt, shapes, notes)
 

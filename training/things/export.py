@@ -88,3 +88,11 @@ def write(
     onnx.checker.check_model(model)
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(model.SerializeToString())
+
+
+def note(path: Path, notes: dict[str, Any]) -> None:
+    """Write other notes into the metadata of a network; those of other names stay."""
+    model = onnx.load(path)
+    kept = {one.key: one.value for one in model.metadata_props}
+    helper.set_model_props(model, kept | {name: str(value) for name, value in notes.items()})
+    path.write_bytes(model.SerializeToString())

@@ -74,17 +74,26 @@ def namer(classes: int) -> Graph:
     and the logarithms of their variances; three sizes; upright.
     """
     return (
-        Layer("a", "conv", (IMAGE,), 24, stride=2),
-        Layer("b", "conv", ("a",), 64, stride=2),
+        Layer("a", "conv", (IMAGE,), 32, stride=2),
+        Layer("a1", "conv", ("a",), 32),
+        Layer("a2", "add", ("a", "a1")),
+        Layer("b", "conv", ("a2",), 64, stride=2),
         Layer("b1", "conv", ("b",), 64),
         Layer("b2", "add", ("b", "b1")),
-        Layer("c", "conv", ("b2",), 112, stride=2),
-        Layer("c1", "conv", ("c",), 112),
+        Layer("b3", "conv", ("b2",), 64),
+        Layer("b4", "add", ("b2", "b3")),
+        Layer("c", "conv", ("b4",), 128, stride=2),
+        Layer("c1", "conv", ("c",), 128),
         Layer("c2", "add", ("c", "c1")),
-        Layer("mean", "mean", ("c2",)),
+        Layer("c3", "conv", ("c2",), 128),
+        Layer("c4", "add", ("c2", "c3")),
+        Layer("d", "conv", ("c4",), 160, stride=2),
+        Layer("d1", "conv", ("d",), 160),
+        Layer("d2", "add", ("d", "d1")),
+        Layer("mean", "mean", ("d2",)),
         Layer("known", "dense", (NUMBERS,), 32),
         Layer("both", "join", ("mean", "known")),
-        Layer("mixed", "dense", ("both",), 128),
+        Layer("mixed", "dense", ("both",), 160),
         Layer("out", "leave", ("mixed",), classes + REST),
     )
 

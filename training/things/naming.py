@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,10 +15,12 @@ import numpy as np
 from robot.perception.things import crops
 from robot.perception.things.inputs import Floats, Sight, sight, tensor
 from robot.perception.things.instances import HALF, instances
+from robot.perception.things.networks import Finder
 from training.things import graphs, networks, resuming
-from training.things.frames import Frame
+from training.things.frames import Frame, load
 from training.things.networks import Learnt
 from training.things.splits import kinds
+from training.things.working import each
 
 UNKNOWN, NOTHING = "", "nothing"
 CLASSES = (*kinds("train"), UNKNOWN, NOTHING)
@@ -122,11 +125,29 @@ def _coarse(mask: np.ndarray) -> np.ndarray:
 class Lessons(NamedTuple):
     """Many of them, in arrays."""
 
-    planes: np.ndarray
-    numbers: np.ndarray
-    names: np.ndarray
-    rest: np.ndarray
+    planes: Any
+    numbers: Any
+    names: Any
+    rest: Any
     """Place, size, upright, whether there is a place: shape (n, 8)."""
+
+
+def taught(files: list[Path], finder: Path, *, seed: int, jobs: int = 1) -> Lessons:
+    """What scenes have to teach to who finds things with a finder."""
+    made = each(partial(_taught, finder, seed), files, name="cut things out", jobs=jobs)
+    parts = zip(*(one for one in made if one is not None), strict=True)
+    return Lessons(*(np.concatenate(part) for part in parts))
+
+
+def _taught(finder: Path, seed: int, path: Path) -> Lessons | None:
+    rng = np.random.default_rng([seed, int(path.stem)])
+    made = list(lessons(load(path), _finder(finder), rng))
+    return gathered(made) if made else None
+
+
+@cache
+def _finder(path: Path) -> Finder:
+    return Finder(path)
 
 
 def gathered(made: Iterable[Learned]) -> Lessons:
@@ -172,36 +193,36 @@ def learn(
 ) -> Iterator[tuple[float, Learnt]]:
     """The loss of each step, and what was learnt until then; `since`: a namer to go on from."""
     rng = np.random.default_rng(seed)
-    state, one = networks.first(GRAPH, graphs.NAMER_IN, seed), networks.step(loss)
+    state, one = networks.first(GRAPH, graphs.NAMER_IN, seed), networks.step(loss, varied)
     if since is not None:
         some = rng.choice(len(given.names), min(SOME, len(given.names)), replace=False)
         shown = {graphs.IMAGE: given.planes[some].astype(np.float32),
                  graphs.NUMBERS: given.numbers[some]}  # fmt: skip
         state = resuming.read(since, GRAPH, shown)
-    order = rng.permutation(len(given.names))
-    at = 0
-    for rate in networks.rates(steps, MOST_RATE if since is None else AGAIN_RATE, minutes):
+    held, order, at = jax.device_put(given), rng.permutation(len(given.names)), 0
+    most = MOST_RATE if since is None else AGAIN_RATE
+    for number, rate in enumerate(networks.rates(steps, most, minutes)):
         if at + batch > len(order):
             order, at = rng.permutation(len(given.names)), 0
-        chosen = np.sort(order[at : at + batch])
-        at += batch
-        state, value = one(state, rate, _varied(given, chosen, rng))
+        chosen, at = order[at : at + batch], at + batch
+        state, value = one(state, rate, held, chosen, jax.random.key(number))
         yield float(value), state
 
 
-def _varied(given: Lessons, chosen: np.ndarray, rng: np.random.Generator) -> dict[str, np.ndarray]:
+def varied(given: Lessons, chosen: Any, key: Any) -> dict[str, Any]:
     """Some of them, mirrored or not, in other light, with other noise, a pixel aside."""
-    planes = given.planes[chosen].astype(np.float32)
-    rest = given.rest[chosen].copy()
-    count = len(chosen)
-    mirrored = rng.random(count) < 0.5
-    planes[mirrored] = planes[mirrored, :, ::-1]
-    rest[mirrored, 1] *= -1.0
-    gain = np.exp(rng.normal(0.0, 0.12, (count, 1, 1, 3)) + rng.normal(0.0, 0.15, (count, 1, 1, 1)))
-    planes[..., :3] = np.clip((planes[..., :3] + 0.5) * gain, 0.0, 1.0) - 0.5
-    planes[..., 4] += planes[..., 6] * rng.normal(0.0, 0.04, planes.shape[:3])
-    across, down = rng.integers(-2, 3, 2).tolist()
-    planes = np.roll(planes, (down, across), axis=(1, 2))
-    numbers = given.numbers[chosen] + rng.normal(0.0, 0.02, (count, given.numbers.shape[1]))
-    return {"planes": planes, "numbers": numbers.astype(np.float32),
-            "names": given.names[chosen], "rest": rest}  # fmt: skip
+    count, keys = len(chosen), jax.random.split(key, 6)
+    planes, rest = given.planes[chosen].astype(jnp.float32), given.rest[chosen]
+    turned = jax.random.bernoulli(keys[0], 0.5, (count,))
+    planes = jnp.where(turned[:, None, None, None], planes[:, :, ::-1], planes)
+    rest = rest.at[:, 1].multiply(jnp.where(turned, -1.0, 1.0))
+    gain = 0.12 * jax.random.normal(keys[1], (count, 1, 1, 3))
+    gain += 0.15 * jax.random.normal(keys[2], (count, 1, 1, 1))
+    colours = jnp.clip((planes[..., :3] + 0.5) * jnp.exp(gain), 0.0, 1.0) - 0.5
+    depths = planes[..., 4] + planes[..., 6] * (0.04 * jax.random.normal(keys[3], planes.shape[:3]))
+    planes = planes.at[..., :3].set(colours).at[..., 4].set(depths)
+    aside = jax.random.randint(keys[4], (2,), -2, 3)
+    planes = jnp.roll(planes, (aside[0], aside[1]), axis=(1, 2))
+    numbers = given.numbers[chosen]
+    numbers += 0.02 * jax.random.normal(keys[5], numbers.shape)
+    return {"planes": planes, "numbers": numbers, "names": given.names[chosen], "rest": rest}

@@ -109,14 +109,17 @@ def run(
     return found[graph[-1].name], kept
 
 
-def step(loss: Callable[..., Any]) -> Callable[..., tuple[Learnt, Any]]:
+def step(loss: Callable[..., Any], varied: Callable[..., Any]) -> Callable[..., tuple[Learnt, Any]]:
     """A step of Adam [Kingma, Ba 2015] with decaying weights.
 
     Args:
         loss: of weights, statistics and a batch; it gives its value, and the statistics after it.
+        varied: makes the batch of all that there is to learn from, the numbers of what is chosen
+            of it, and a random key.
     """
 
-    def one(state: Learnt, rate: Any, batch: Any) -> tuple[Learnt, Any]:
+    def one(state: Learnt, rate: Any, given: Any, chosen: Any, key: Any) -> tuple[Learnt, Any]:
+        batch = varied(given, chosen, key)
         (value, even), slope = jax.value_and_grad(loss, has_aux=True)(
             state.weights, state.even, batch
         )

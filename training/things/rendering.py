@@ -3,28 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
-
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from training.things import homes
 from training.things.frames import Frame, load, save
 from training.things.scenes import Scene
 from training.things.splits import Split
+from training.things.working import each
 
 PICTURES = 4
 """Of a scene; to compile one takes as long as to render one."""
 WALKS, STEPS = "walks", 8
 """Folders of pictures on the way to a thing begin so; pictures of a walk, and of a home."""
 HOMES = "homes"
-
-
-def bar() -> Progress:
-    """How far long work has come, on the terminal."""
-    return Progress(
-        TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
-    )
 
 
 def render(
@@ -42,17 +34,9 @@ def render_homes(folder: Path, first: int, count: int, *, jobs: int = 1) -> list
 def _rendered(into: Path, split: Split, first: int, count: int, jobs: int) -> list[Path]:
     every = [into / f"{seed:06d}.npz" for seed in range(first, first + count)]
     missing = [path for path in every if not path.exists()]
-    with bar() as progress:
-        task = progress.add_task(f"render: {into.name}", total=len(every))
-        progress.advance(task, len(every) - len(missing))
-        if jobs == 1:
-            for path in missing:
-                _scene(split, path)
-                progress.advance(task)
-        else:
-            with ProcessPoolExecutor(jobs) as pool:
-                for _ in pool.map(_scene, [split] * len(missing), missing):
-                    progress.advance(task)
+    if missing:
+        for _ in each(partial(_scene, split), missing, name=f"render: {into.name}", jobs=jobs):
+            pass
     return every
 
 

@@ -16,14 +16,16 @@ from numpy.typing import NDArray
 
 from robot.messages import RgbdImage
 from robot.se3 import SE3, Array, Vector3
-from sim import thing_bodies
+from sim import bodies, thing_bodies
 from sim.camera.by_rays import Tracer
 from sim.camera.flaws import CameraFlaws
 from sim.camera.scene_view import Pinhole
 from sim.paint import Paint
+from sim.palette import COLORS
 from sim.realities import profile
 from sim.things.making import made
 from sim.things.thing import Thing
+from sim.world_schema import Person
 from training.things import rooms
 from training.things.frames import Frame, Truth
 from training.things.splits import ROOMS, Split, family, kinds
@@ -37,6 +39,9 @@ SHOWN = (4, 12)
 """Things of a picture, at least and at most."""
 LIES_SHARE = 0.08
 LYING = ("bottles", "cans", "boxes")
+PERSON, PEOPLE_SHARE = "somebody", 0.35
+"""Somebody stands in so many pictures, whom nobody should take for a thing."""
+STANDING_M = ((-1.2, 1.3), (-1.6, 2.6))
 AWAY_M = -50.0
 EYE_M, NEAR_M, FAR_M = (1.0, 1.35), 0.35, 2.6
 BEARING = (-1.9, 1.9)
@@ -73,6 +78,10 @@ class Scene:
             *(self._known(spec, paint, number, split) for number in range(KNOWN)),
             *(self._unknown(spec, paint, number) for number in range(UNKNOWN)),
         ]
+        colors = sorted(COLORS)
+        somebody = Person(id=PERSON, at_m=(0.0, 0.0), height_m=float(rng.uniform(1.5, 1.95)),
+                          color=colors[int(rng.integers(len(colors)))])  # fmt: skip
+        bodies.add_person(spec, somebody, paint)
         self._model = spec.compile()
         self._data = mujoco.MjData(self._model)
         names = [f"thing/{number}" for number in range(len(self._items))]
@@ -122,6 +131,7 @@ class Scene:
     def _arranged(self) -> list[int]:
         """Put things and lamps elsewhere; the things that are shown."""
         shown = self._place()
+        self._put_person()
         mujoco.mj_kinematics(self._model, self._data)
         self._light()
         mujoco.mj_camlight(self._model, self._data)
@@ -174,6 +184,14 @@ class Scene:
                     shown.append(number)
                     break
         return shown
+
+    def _put_person(self) -> None:
+        rng = self._rng
+        if rng.random() < PEOPLE_SHARE:
+            mocap = int(self._model.body_mocapid[self._model.body(f"person/{PERSON}").id])
+            x, y = (float(rng.uniform(*limits)) for limits in STANDING_M)
+            turn = SE3.from_xy_yaw(x, y, float(rng.uniform(-math.pi, math.pi)))
+            self._data.mocap_pos[mocap], self._data.mocap_quat[mocap] = turn.p, turn.quat_wxyz
 
     def _light(self) -> None:
         """Another light: lamps from elsewhere, of another strength and temperature."""

@@ -93,9 +93,9 @@ def test_networks_learn_and_their_files_answer_as_they_do(frame: Frame, tmp_path
     from robot.perception.things.networks import Finder
     from training.things import export, finding, graphs, naming, networks
 
-    save([frame], tmp_path / "a.npz")
-    save([frame], tmp_path / "b.npz")
-    made = list(finding.learn([tmp_path / "a.npz", tmp_path / "b.npz"], steps=30, seed=0))
+    scene = tmp_path / "000001.npz"
+    save([frame], scene)
+    made = list(finding.learn(finding.gathered([scene, scene]), steps=60, batch=8, seed=0))
     losses = [loss for loss, _ in made]
     assert np.mean(losses[-5:]) < 0.8 * np.mean(losses[:5])
     learnt = jax.tree.map(np.asarray, made[-1][1])
@@ -110,8 +110,7 @@ def test_networks_learn_and_their_files_answer_as_they_do(frame: Frame, tmp_path
     said = Finder(path)(given)
     assert said == pytest.approx(np.asarray(wanted)[0].transpose(2, 0, 1), abs=2e-3)
 
-    rng = np.random.default_rng(0)
-    lessons = naming.gathered(naming.lessons([frame] * 3, Finder(path), rng))
+    lessons = naming.taught([scene] * 3, path, seed=0)
     assert lessons.planes.shape[1:] == (SIDE_PX, SIDE_PX, CHANNELS)
     assert lessons.numbers.shape[1:] == (NUMBERS,)
     told = [loss for loss, _ in naming.learn(lessons, steps=60, batch=4, seed=0)]
