@@ -115,6 +115,13 @@ class WorldModel:
             if self._tracks[name].X_WO is not None and name not in self._holds:
                 self._miss(self._tracks, name)
 
+    def mistake(self, names: Collection[str]) -> None:
+        """Take it that objects were never where they were seen: something else is there."""
+        for name in names:
+            if name not in self._holds:
+                self._tracks[name] = Track(id=name, X_WO=None, seen_s=-math.inf)
+                self._misses.pop(name, None)
+
     def _miss_objects(self, view: View, seen: Collection[str]) -> None:
         for name, track in self._tracks.items():
             if track.X_WO is None or name in seen or name in self._holds:

@@ -240,6 +240,7 @@ class PerceptionNode(Closing):
         self._world.measure(gaze.infos())
         self._world.see(look.sightings, view.X_WC, None)
         self._world.miss(look.missed)
+        self._world.mistake(look.mistaken)
         self._looked.see(gaze.surfaces(view), view.X_WC)
         gaze.publish(self._now_s)
 

@@ -32,7 +32,11 @@ NO_WAY = -50.0
 
 
 class Recogniser:
-    """The names that were given, by track."""
+    """The names that were given, by track.
+
+    Attributes:
+        mistaken: names that have lost their thing to another name when names were given last.
+    """
 
     def __init__(self, classes: Classes, sure: Sure) -> None:
         """Know no thing.
@@ -45,6 +49,7 @@ class Recogniser:
         self._told: tuple[ObjectInfo, ...] = ()
         self._plurals: Mapping[str, str] = {}
         self._number: dict[str, int] = {}
+        self.mistaken: frozenset[str] = frozenset()
 
     def tell(self, told: tuple[ObjectInfo, ...], plurals: Mapping[str, str]) -> None:
         """What things there are: by name, category and colour."""
@@ -58,6 +63,7 @@ class Recogniser:
         """Give names to tracks, or leave them; every named one by its id."""
         there = {track.number for track in tracks}
         self._number = {id: number for id, number in self._number.items() if number in there}
+        self.mistaken = frozenset()
         if not tracks or not self._told:
             return {}
         fits = np.array(
@@ -74,7 +80,11 @@ class Recogniser:
             column = chosen.get(row)
             if column is not None and self._is_sure(fits, stays, chosen, row):
                 found[info.id] = tracks[column]
-        self._number = {id: track.number for id, track in found.items()}
+        before, self._number = self._number, {id: track.number for id, track in found.items()}
+        owners = {number: id for id, number in self._number.items()}
+        self.mistaken = frozenset(
+            id for id, number in before.items() if owners.get(number, id) != id
+        )
         return found
 
     def _is_sure(

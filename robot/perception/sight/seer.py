@@ -38,11 +38,14 @@ class Look(NamedTuple):
     Attributes:
         sightings: the named things in it.
         missed: named things whose place is in plain view and empty.
+        mistaken: what something was taken for that turns out to be another thing; where that really
+            is, nobody has seen.
         things: everything that was measured in it, with the name it was given or "".
     """
 
     sightings: Sightings
     missed: frozenset[str]
+    mistaken: frozenset[str]
     things: tuple[tuple[Seen, str], ...]
 
 
@@ -56,6 +59,7 @@ class Seer:
         self._recogniser = Recogniser(namer.classes, namer.sure)
         self._tracks = Tracks()
         self._places: tuple[Place, ...] = ()
+        self._told: dict[str, ObjectInfo] = {}
         self._infos: dict[str, ObjectInfo] = {}
         self._named: dict[str, Seen] = {}
 
@@ -63,7 +67,8 @@ class Seer:
         """Take the surfaces of a map, and the names, categories and colours of its things."""
         self._places = world_map.places
         told = tuple(one.told() for one in world_map.objects)
-        self._infos = {**{one.id: one for one in told}, **self._infos}
+        self._told = {one.id: one for one in told}
+        self._infos = self._told | self._infos
         self._recogniser.tell(told, world_map.categories)
 
     def infos(self) -> tuple[ObjectInfo, ...]:
@@ -95,7 +100,7 @@ class Seer:
         view = sight(image, X_WC)
         nothing = Sightings(stamp_s=image.stamp_s, objects=(), source="sensor")
         if view is None:
-            return Look(nothing, frozenset(), ())
+            return Look(nothing, frozenset(), frozenset(), ())
         self._carry(held)
         found = [one for one in self._found(image, view, own) if not _is_at(one.p_W, hands_W)]
         seen = self._tracks.add(found, image.stamp_s)
@@ -103,6 +108,9 @@ class Seer:
         gone = self._tracks.miss(_without(view, own), seen, image.stamp_s)
         self._named = self._recogniser.named(self._tracks.things)
         names = {track.number: id for id, track in self._named.items()}
+        sighted = {names[track.number] for track in seen if track.number in names}
+        mistaken = self._recogniser.mistaken - sighted - set(held)
+        self._infos |= {name: self._told[name] for name in mistaken}
         self._measure(seen, names)
         X_CW = X_WC.inverse()
         sightings = tuple(
@@ -113,6 +121,7 @@ class Seer:
         return Look(
             Sightings(stamp_s=image.stamp_s, objects=sightings, source="sensor"),
             frozenset(before[track.number] for track in gone if track.number in before) - set(held),
+            mistaken,
             tuple((track, names.get(track.number, "")) for track in seen),
         )
 

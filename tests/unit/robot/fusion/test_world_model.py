@@ -95,6 +95,15 @@ def test_it_is_found_again(model):
     assert not cup(model).missing
 
 
+def test_what_was_another_thing_is_nowhere_again(model):
+    model.see(seen(0.0, (0.0, 0.0, 1.5)), X_WC, depth())
+    model.mistake({"cup"})
+    assert cup(model).X_WO is None
+    assert not cup(model).missing
+    model.see(seen(1.0, (0.2, 0.0, 1.5)), X_WC, depth())
+    assert cup(model).X_WO.p[1] == pytest.approx(-0.2)
+
+
 NOT_CLEAR = {
     "hidden": (X_WC, depth(patch=(70, 90, 50, 70))),
     "half hidden": (X_WC, depth(patch=(80, 90, 50, 70))),

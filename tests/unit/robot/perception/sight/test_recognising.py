@@ -97,3 +97,28 @@ def test_sizes_and_masses_that_were_told_change_nothing():
     )  # fmt: skip
     things = [measured(HERE), measured(THERE, colours=("blue",))]
     assert names(things, (heavy, BLUE)) == names(things, (RED, BLUE))
+
+
+def test_a_name_that_loses_its_thing_to_another_was_a_mistake():
+    recogniser, tracks = Recogniser(CLASSES, SURE), Tracks()
+    recogniser.tell((RED, BLUE), {"cup": "cups"})
+    said = []
+    for k in range(16):
+        colour = "red" if k < 2 else "blue"  # the light has changed
+        tracks.add([measured(HERE, colours=(colour,))], 0.2 * k)
+        said.append((set(recogniser.named(tracks.things)), set(recogniser.mistaken)))
+    assert said[1] == ({"red_cup"}, set())
+    assert [mistaken for _, mistaken in said].count({"red_cup"}) == 1
+    assert said[-1] == ({"blue_cup"}, set())
+
+
+def test_a_name_that_nobody_else_has_is_no_mistake():
+    recogniser, tracks = Recogniser(CLASSES, SURE), Tracks()
+    recogniser.tell((RED, BLUE), {"cup": "cups"})
+    for k in range(3):
+        tracks.add([measured(HERE)], 0.2 * k)
+        recogniser.named(tracks.things)
+    for k in range(3, 12):
+        tracks.add([measured(HERE, kind="banana", certain=0.99, colours=("green",))], 0.2 * k)
+        recogniser.named(tracks.things)
+        assert not recogniser.mistaken
