@@ -52,7 +52,7 @@ _MOST_REWORDED = 2
 """So many remainders without whole clauses are said in plain words: each takes a millisecond."""
 _ASKS = lexicon.words("please could can would will shall may might let fancy")
 """With one of these a question may ask for something to be done."""
-_LOOKING = (Find, Count, Tell, Report, Answer, LookAt)
+LOOKING = (Find, Count, Tell, Report, Answer, LookAt)
 """What answers a question."""
 _WORDS = re.compile(r"[\w']+")
 LONGEST = 60
@@ -167,7 +167,7 @@ def only_asks(text: str, goals: Sequence[Goal]) -> bool:
     """Whether a question that asks for nothing to be done was taken for an order."""
     words = _WORDS.findall(text.lower().replace("’", "'"))
     asks = text.rstrip(" \"'”)").endswith("?") and _ASKS.isdisjoint(words)
-    return asks and not all(isinstance(goal, _LOOKING) for goal in each(goals))
+    return asks and not all(isinstance(goal, LOOKING) for goal in each(goals))
 
 
 def _passes_orders(text: str, look: Look, read: Grammar) -> bool:

@@ -15,6 +15,11 @@ CONDITIONS = lexicon.words(
 """They make an order one for some cases only."""
 TIMES = lexicon.words("before after when whenever once while then later tomorrow tonight overnight")
 """They tell when, and as often why: "after all I have done for you"."""
+CALENDAR = lexicon.words(
+    "tomorrow tonight overnight o'clock oclock noon midnight midday daily nightly weekly hourly "
+    "monday tuesday wednesday thursday friday saturday sunday"
+)
+"""They tell on what day or at what hour: nothing the robot does waits for that."""
 DENIALS = lexicon.words("not no never don't dont without nor neither nothing none nobody")
 """They say what is not to be done, and as often that something is no trouble."""
 CHOICES = lexicon.words("either or instead rather but should")

@@ -1,0 +1,322 @@
+"""What may be missing in what the network says of a sentence, and how sure it then has to be.
+
+Each doubt is a kind of loss that a guess at other words is prone to. How likely the network's
+reading has to be (:mod:`intents.english.learnt.choice`) in spite of it was measured with the
+sentences of `training/paraphrase/pairs/16*`, of which two worlds were kept out of what was learnt:
+from the likelihoods below on nine in ten and more were what was meant. What is never acted on, is
+asked about.
+"""
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
+
+from intents.english.faithfulness import CARRYING, numbers, strings
+from intents.english.learnt.choice import Both, Name, lost
+from intents.english.learnt.plainness import plainness
+from intents.english.trouble import Idle
+from intents.english.words import lexicon
+from intents.english.words.limits import (
+    CALENDAR,
+    CHOICES,
+    CONDITIONS,
+    DENIALS,
+    MEASURES,
+    QUANTITIES,
+    SPOTS,
+    TIMES,
+)
+from intents.english.words.measures import number
+from intents.english.words.names import NameIndex
+from intents.english.words.reporting import is_reported
+from intents.english.words.spelling import GRAMMAR_WORDS
+from intents.english.words.verbs import base_form, verbs_at
+from intents.goals import Cancel, Goal, LookAt, Pause, Report, Say, Stop, Tell, Wait, each
+from intents.outcomes import Goals, Question
+from intents.second_look import LOOKING, Attempt, only_asks
+
+SURE, SURER, SUREST, NEVER = 0.7, 0.9, 0.95, 2.0
+"""From these on the network's reading is acted on: where there is no doubt; where it says how long,
+how far, in which cases or what to say, which a network may well guess; where the grammar sees
+nothing to do in the sentence, or the network itself is not sure of its words; never."""
+QUITE_SURE = 0.85
+"""The same for a sentence whose form is no order's, what the robot is to tell of itself, and a
+name that was taken back."""
+FOUND = 0.5
+"""So sure the network itself has to be of its words, or its reading to be one of the `SUREST`."""
+SHORT = 6
+"""In so few words the one that the grammar asks about may well matter: "the lamp, gingerly"."""
+
+_RELATIVE = lexicon.words("that which who is")
+"""Behind one of these "not" says which is meant: "all that is not red"."""
+_TAKES_BACK = re.compile(
+    r"\b(?:no|nope|naw|nah|sorry|scratch|scrap|correction|mistake|rather|actually|mean|meant|wait|"
+    r"instead|what am i saying|hang on|hold on)\b"
+)
+"""A name ahead of one of these may have been taken back by one behind it."""
+_TITLE = re.compile(r"^(?:mr|mrs|ms|miss|dr|prof|professor|doctor|sir|madam|uncle|auntie)\.? ")
+_WORDS = re.compile(r"[\w']+")
+_CLAUSES = re.compile(r"[,.;:!?…—–]+|\b(?:so|and|then|but)\b")
+_MEANT = re.compile(r"\bI meant? (?:the|a|an|my|your|our|his|her|this|that)\s+\w", re.IGNORECASE)
+"""I mean *the cellar*: what takes another's place, be it known or not."""
+_BY_THE_WAY = (Wait, Stop, Cancel, Pause, Report)
+"""What is read out of talk beside an order: "hang on", "never mind", "look"."""
+_ASKS = lexicon.words("please you your me us can could would should must ought let lets let's")
+"""Without one of these, and without a verb at the beginning, a sentence only tells something."""
+_SEVERAL = 2
+_LIMITING = (
+    CARRYING | CONDITIONS | TIMES | CALENDAR | DENIALS | CHOICES | QUANTITIES | MEASURES | SPOTS
+) - lexicon.words("one")
+_POINTING = lexicon.words("it him her them this that these those he she they there")
+_HOW = lexicon.words("how why when who")
+
+
+class _Case(NamedTuple):
+    """A sentence, what was made of it before, and what the network makes of it."""
+
+    text: str
+    index: NameIndex
+    before: Attempt
+    both: Both
+
+    @property
+    def goals(self) -> tuple[Goal, ...]:
+        return self.both.other.goals
+
+    @property
+    def words(self) -> list[str]:
+        return plain_words(self.text)
+
+
+def needed(
+    text: str, index: NameIndex, before: Attempt, both: Both, *, least: float = SURE
+) -> float:
+    """How likely the network's reading has to be to be acted on [0..1]; above 1 if it never is.
+
+    Args:
+        text: What was said.
+        index: The names of this world.
+        before: What was made of it so far.
+        both: It, and what the network says instead.
+        least: How likely it has to be in any case: beyond `SURE` the grammar has its reasons to
+            ask or to refuse, and then no word may be lost that limits an order.
+    """
+    case = _Case(text, index, before, both)
+    doubts = _DOUBTS if least <= SURE else (*_DOUBTS, *_MORE_DOUBTS)
+    return max((one for doubt, one in doubts if doubt(case)), default=least)
+
+
+def plain_words(text: str) -> list[str]:
+    """The words of a text in lower case, without signs."""
+    return _WORDS.findall(text.lower().replace("’", "'"))
+
+
+def is_by_the_way(goal: Goal) -> bool:
+    """Whether somebody may have said that without asking for it: "hang on", not "wait 10 s"."""
+    if isinstance(goal, LookAt):
+        return goal.object is None and goal.person is None
+    return isinstance(goal, _BY_THE_WAY) and not (isinstance(goal, Wait) and goal.duration_s)
+
+
+def offers(before: Attempt) -> tuple[Goal, ...]:
+    """What the grammar asks whether it is meant."""
+    return before.outcome.goals if isinstance(before.outcome, Question) else ()
+
+
+def _is_short(case: _Case) -> bool:
+    """Whether the grammar asks about a word of a few, and the network only passes it over."""
+    return len(case.text.split()) <= SHORT and offers(case.before) == case.goals
+
+
+def _is_idle(case: _Case) -> bool:
+    return isinstance(case.before.error, Idle)
+
+
+def _only_tells(case: _Case) -> bool:
+    return case.before.tells
+
+
+def _has_no_request(case: _Case) -> bool:
+    """Whether a sentence has no form of a request: "the scarf is needed for the party"."""
+    signs = plainness(case.text, [name.said for name in case.both.names], 1, "")
+    told = not {"begins=article", "begins=name", "begins=about"}.isdisjoint(signs)
+    return told and _ASKS.isdisjoint(case.words) and not any(_ordered(case.text))
+
+
+def _ordered(text: str) -> Iterator[bool]:
+    """For each clause behind the first, whether it begins with an order: "..., *close it*"."""
+    _, *others = (plain_words(clause) for clause in _CLAUSES.split(text.lower()))
+    for words in filter(None, others):
+        follows = words[1:2] != [] and words[1] in lexicon.DETERMINERS | lexicon.PRONOUNS
+        yield follows and base_form(words[0]) == words[0] and bool(verbs_at(words, 0))
+
+
+def _is_quoted(case: _Case) -> bool:
+    return is_reported(case.text)
+
+
+def _only_asks(case: _Case) -> bool:
+    """Whether a question was taken for an order: "how would you pick it up?"."""
+    looks = all(isinstance(goal, LOOKING) for goal in each(case.goals))
+    wonders = not looks and case.text.rstrip().endswith("?") and case.words[0] in _HOW
+    return wonders or (only_asks(case.text, case.goals) and not any(_you_do(case.text)))
+
+
+def _you_do(text: str) -> Iterator[bool]:
+    """For each clause, whether it begins as learners ask: "my hands are wet, *you open* it?"."""
+    for words in map(plain_words, _CLAUSES.split(text.lower())):
+        verb = words[1] if words[:1] == ["you"] and words[1:] else ""
+        yield bool(verb) and base_form(verb) == verb and bool(verbs_at(words, 1))
+
+
+def _calls_somebody(case: _Case) -> bool:
+    """Whether a sentence begins with the name of somebody, who is spoken to: "Leo, sit here"."""
+    people = [name.said.lower() for name in case.both.names if name.sort == "person"]
+    said = _TITLE.sub("", case.text.lower().lstrip())
+    return any(said.startswith((f"{one},", f"{one}!")) for one in people)
+
+
+def _is_unsure(case: _Case) -> bool:
+    return case.both.likely < FOUND
+
+
+def _passes_on(case: _Case) -> bool:
+    return any(isinstance(goal, Say) for goal in each(case.goals))
+
+
+def _measures(case: _Case) -> bool:
+    """Whether it is said how long or how far: of what may well be guessed."""
+    return not MEASURES.isdisjoint(case.words)
+
+
+def _loses_limit(case: _Case) -> bool:
+    """Whether words make an order one for some cases only, or tell which, and may be lost."""
+    words = case.words
+    if _MEANT.search(case.text):
+        return True
+    if CONDITIONS.intersection(words) and "if" not in case.both.plain.split():
+        return True
+    denied = [n for n, word in enumerate(words) if word == "not" or word.endswith("n't")]
+    return any(n == 0 or words[n - 1] in _RELATIVE for n in denied)
+
+
+def _loses_any_limit(case: _Case) -> bool:
+    """Whether any word that could limit an order does not come back: "for later", "both hands"."""
+    plain = set(case.both.plain.lower().split())
+    kept = {*plain, *strings(case.goals)}
+    if "if" in plain:
+        kept |= CONDITIONS | {"not"}
+    told = numbers(case.goals)
+    for at, word in enumerate(case.words):
+        meant = lexicon.COLORS.get(word) or lexicon.SIZES.get(word) or word
+        count = number(case.words, at)
+        gone = word in _LIMITING or count is not None
+        if gone and not {word, meant} & kept and not (count and count.value in (1, *told)):
+            return True
+    return False
+
+
+def _points(case: _Case) -> bool:
+    """Whether it speaks of something by a pronoun alone: "follow him"."""
+    told = all(isinstance(goal, Report | Tell) for goal in each(case.goals))
+    return not told and not _POINTING.isdisjoint(case.words)
+
+
+def _begins_unknown(case: _Case) -> bool:
+    """Whether it begins with an order that nobody knows: "smash the cup on the bar"."""
+    first, second = (*case.words, "", "")[:2]
+    known = first in GRAMMAR_WORDS or case.index.match(case.words, 0) is not None
+    return not known and second in lexicon.DETERMINERS
+
+
+def _loses_time(case: _Case) -> bool:
+    """Whether it is said at what time something is to be done, which no plain word says."""
+    return not CALENDAR.isdisjoint(case.words)
+
+
+def _tells_of_itself(case: _Case) -> bool:
+    return all(isinstance(goal, Report) for goal in case.goals)
+
+
+def _ends_something(case: _Case) -> bool:
+    """Whether all is to tell or to end something, easily read out of talk: "forget it"."""
+    small = all(isinstance(goal, Report | Cancel) for goal in case.goals)
+    return small and not _tells_of_itself(case)
+
+
+def _leaves_out(case: _Case) -> bool:
+    """Whether the network only leaves out an order that the grammar read, and no talk."""
+    before = case.before
+    if not isinstance(before.outcome, Goals) or any(g not in before.goals for g in case.goals):
+        return False
+    return any(not is_by_the_way(goal) for goal in before.goals if goal not in case.goals)
+
+
+def _loses_name(case: _Case) -> bool:
+    gone = lost(case.both)
+    return bool(gone) and not _are_taken_back(case, gone)
+
+
+def _takes_back(case: _Case) -> bool:
+    gone = lost(case.both)
+    return bool(gone) and _are_taken_back(case, gone)
+
+
+def _are_taken_back(case: _Case, gone: Sequence[Name]) -> bool:
+    """Whether each lost name has one of its kind behind it, and a word between that takes it back.
+
+    "The master key, no, the *room key*"; the one that is kept has to come back in the goals.
+    """
+    text = case.text.lower()
+    kept = [name for name in case.both.names if name not in gone]
+    return all(
+        any(
+            one.sort == other.sort
+            and (begin := text.find(one.said)) < (end := text.rfind(other.said))
+            and _TAKES_BACK.search(text[begin + len(one.said) : end])
+            for other in kept
+        )
+        for one in gone
+    )
+
+
+def _loses_count(case: _Case) -> bool:
+    """Whether it is said how many of a thing are meant, and no goal says that."""
+    words, told = case.words, numbers(case.goals)
+    for at in range(len(words) - 1):
+        count = number(words, at)
+        if count is None or count.value < _SEVERAL or count.value in told:
+            continue
+        ends = range(count.end, min(count.end + 2, len(words)))
+        names = (case.index.match(words, n) for n in ends)
+        if any(match is not None and match.of("object", "category") for match in names):
+            return True
+    return False
+
+
+_DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
+    (_loses_name, NEVER),
+    (_loses_count, NEVER),
+    (_loses_time, NEVER),
+    (_leaves_out, NEVER),
+    (_is_short, NEVER),
+    (_only_tells, NEVER),
+    (_is_quoted, NEVER),
+    (_only_asks, NEVER),
+    (_calls_somebody, NEVER),
+    (_is_idle, SUREST),
+    (_is_unsure, SUREST),
+    (_ends_something, SUREST),
+    (_passes_on, SURER),
+    (_measures, SURER),
+    (_loses_limit, SURER),
+    (_has_no_request, QUITE_SURE),
+    (_tells_of_itself, QUITE_SURE),
+    (_takes_back, QUITE_SURE),
+)
+_MORE_DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
+    (_loses_any_limit, NEVER),
+    (_points, NEVER),
+    (_begins_unknown, NEVER),
+)
+"""Each doubt, and how likely what the network says has to be in spite of it."""

@@ -1,0 +1,76 @@
+"""What may be lost in other words than those that were said, and how sure they then have to be."""
+
+import pytest
+
+from intents.context import Context
+from intents.doubts import NEVER, QUITE_SURE, SURE, SURER, SUREST, needed
+from intents.english.learnt.choice import SILENT, Both, Name, Side
+from intents.english.paraphrase.source import units, words_of
+from intents.english.words.names import index_of
+from intents.outcomes import Goals
+from intents.parser import first_look
+from intents.vocabulary import Vocabulary
+
+LIGHTHOUSE = Vocabulary.of(
+    objects=["oil can", "master key", "room key", "spyglass", "flare"],
+    places=["lantern", "chest", "rail"],
+    rooms=["gallery"],
+    people=["Morwenna", "Jago"],
+)
+INDEX = index_of(LIGHTHOUSE)
+
+
+def least(said: str, plain: str, *, likely: float = 0.9, asked_for: float = SURE) -> float:
+    """How likely the plain words have to be in place of what was said."""
+    before = first_look(said, LIGHTHOUSE, Context())
+    other = first_look(plain, LIGHTHOUSE, Context()).outcome
+    assert isinstance(other, Goals), plain
+    told = [one for one in units(words_of(said), INDEX) if one.names]
+    names = [Name(one.sort, one.names, one.is_whole, one.said) for one in told]
+    both = Both(said, names, plain, likely, SILENT, Side("goals", other.goals))
+    return needed(said, INDEX, before, both, least=asked_for)
+
+
+@pytest.mark.parametrize(
+    ("said", "plain", "wanted"),
+    [
+        ("hoick us the flare off that rail there would ye", "bring the flare at the rail to me",
+         SURE),
+        ("hoick the master key hither, no, the room key I want", "bring the room key to me",
+         QUITE_SURE),
+        ("the flare for Jago and yon spyglass hither", "bring the spyglass to me", NEVER),
+        ("The lantern, it makes smoke, shut it", "close the lantern", SURE),
+        ("The lantern, it makes such smoke", "close the lantern", QUITE_SURE),
+        ("hoick two flares hither for Jago somehow", "bring the flare to Jago", NEVER),
+        ("hoick the flare to Jago at nine o'clock somehow", "bring the flare to Jago", NEVER),
+        ("would ye be stopping there ten minutes somehow", "wait 10 s", SURER),
+        ("how would anybody ever hoick the flare to Jago?", "bring the flare to Jago", NEVER),
+        ("my hands are wet, you bring the flare somehow?", "bring the flare to me", SURE),
+    ],
+)  # fmt: skip
+def test_what_may_be_lost_asks_for_more(said: str, plain: str, wanted: float) -> None:
+    assert least(said, plain) == wanted
+
+
+def test_words_that_the_network_is_not_sure_of_have_to_be_likeliest() -> None:
+    said, plain = "hoick us the flare off that rail", "bring the flare at the rail to me"
+    assert least(said, plain, likely=0.3) == SUREST
+
+
+@pytest.mark.parametrize(
+    ("said", "plain"),
+    [
+        ("hoick the flare hither with both hands", "bring the flare to me"),
+        ("hoick the flare hither later", "bring the flare to me"),
+        ("hoick the upper flare hither", "bring the flare to me"),
+        ("hoick the flare hither without the chest", "bring the flare to me"),
+        ("hoick him the flare hither", "bring the flare to me"),
+        ("smash the flare on the chest", "put the flare on the chest"),
+    ],
+)
+def test_on_purpose_nothing_is_lost_that_limits_an_order(said: str, plain: str) -> None:
+    assert least(said, plain, asked_for=SURER) == NEVER
+
+
+def test_on_purpose_what_loses_nothing_has_to_be_surer() -> None:
+    assert least("hoick us the flare hither", "bring the flare to me", asked_for=SURER) == SURER
