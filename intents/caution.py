@@ -72,7 +72,8 @@ _NO_ORDER = re.compile(
     r"know|think|care|matter|see|seem|need|sure|only|just|yet|too|so|very|far|long|bad|at all|"
     r"enough|really|possible|urgent|here|there|be (?:shy|late|afraid|long|slow|silly)|have|fit|"
     r"find|reach|remember|understand|work|feel|like|able|want to|in|on|at|a|an|the|mine|my|"
-    r"that|this|where|what|happy|feeling|well|good|available|let me down|sound)\b"
+    r"that|this|where|what|inconvenient|troubling|working|"
+    r"happy|feeling|well|good|available|let me down|sound)\b"
 )
 _SELDOM = re.compile(r"\b(?:why|could|can|will|would|won't|are) (?:do )?(?:you )?(?:not )?$")
 _STATES = re.compile(r"\b(?:i|we|he|she|it|they|there|this|that|who|which)\W+(?:\w+\W+)?$")
@@ -162,7 +163,7 @@ def _forbidding(heard: str, said: str) -> Iterator[str]:
         word = re.split(r"\W+", before.strip())[-1]
         ahead = before[: -len(word) - 1]
         told = _STATES.search(ahead) or _SELDOM.search(ahead) or _NO_ORDER.match(after)
-        told = told or _ASKS.search(found.group())
+        told = told or _ASKS.search(found.group()) or (word == "or" and not after.strip(" .!?"))
         if not told and not re.search(rf"\b{word}\b", said):
             yield " ".join(found.group()[: found.start("after") - found.start()].split()).strip(
                 " ,.;:!?"

@@ -31,7 +31,7 @@ from intents.english.words.names import NameIndex
 from intents.english.words.reporting import is_reported
 from intents.english.words.spelling import GRAMMAR_WORDS
 from intents.english.words.verbs import base_form, verbs_at
-from intents.goals import Cancel, Goal, LookAt, Pause, Report, Say, Stop, Tell, Wait, each
+from intents.goals import Cancel, Count, Goal, LookAt, Pause, Report, Say, Stop, Tell, Wait, each
 from intents.outcomes import Goals, Question
 from intents.second_look import LOOKING, Attempt, only_asks
 
@@ -75,7 +75,7 @@ class _Case(NamedTuple):
     """A sentence, what was made of it before, and what the network makes of it."""
 
     text: str
-    index: NameIndex
+    names: NameIndex
     before: Attempt
     both: Both
 
@@ -205,7 +205,9 @@ def _loses_any_limit(case: _Case) -> bool:
     plain = set(case.both.plain.lower().split())
     kept = {*plain, *strings(case.goals)}
     if "if" in plain:
-        kept |= CONDITIONS | {"not"}
+        kept |= CONDITIONS | {"not", "when", "once", "should"}
+    if any(isinstance(goal, Count) for goal in each(case.goals)):
+        kept |= {"many", "much"}
     told = numbers(case.goals)
     for at, word in enumerate(case.words):
         meant = lexicon.COLORS.get(word) or lexicon.SIZES.get(word) or word
@@ -225,7 +227,7 @@ def _points(case: _Case) -> bool:
 def _begins_unknown(case: _Case) -> bool:
     """Whether it begins with an order that nobody knows: "smash the cup on the bar"."""
     first, second = (*case.words, "", "")[:2]
-    known = first in GRAMMAR_WORDS or case.index.match(case.words, 0) is not None
+    known = first in GRAMMAR_WORDS or case.names.match(case.words, 0) is not None
     return not known and second in lexicon.DETERMINERS
 
 
@@ -288,7 +290,7 @@ def _loses_count(case: _Case) -> bool:
         if count is None or count.value < _SEVERAL or count.value in told:
             continue
         ends = range(count.end, min(count.end + 2, len(words)))
-        names = (case.index.match(words, n) for n in ends)
+        names = (case.names.match(words, n) for n in ends)
         if any(match is not None and match.of("object", "category") for match in names):
             return True
     return False

@@ -12,7 +12,7 @@ from typing import NamedTuple
 from intents.english.aspects import unkept
 from intents.english.clauses.parentheses import parentheses, said_to_others
 from intents.english.faithfulness import left_out, strings
-from intents.english.joining import carried
+from intents.english.joining import carried, said_once
 from intents.english.offers import would_help
 from intents.english.order import RULES
 from intents.english.phrases.referents import ME, Scope
@@ -174,7 +174,7 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
     _refuse_unasked(text)
     sentence = Sentence(text, scope, RULES, history)
     goals, end = sequence(sentence, 0)
-    goals = carried(goals)
+    goals = said_once(carried(goals), text.words)
     help_ = None if goals or sentence.notes.forbidden else would_help(sentence)
     if help_:
         raise Offered(text.raw(0, len(text)), (help_,))

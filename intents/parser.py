@@ -13,6 +13,7 @@ from msgspec.structs import replace
 from intents.bounds import loosened, tells, unkept
 from intents.caution import cautious
 from intents.context import Context, answered, completed
+from intents.contradictions import contradiction
 from intents.english.clauses.telling import only_tells
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
@@ -26,7 +27,8 @@ from intents.english.trouble import (
     Unread,
 )
 from intents.english.words import lexicon
-from intents.english.words.names import index_of
+from intents.english.words.names import NameIndex, index_of
+from intents.english.words.spoken_signs import with_signs
 from intents.english.words.text import Text
 from intents.goals import LookAt, Stop, Wait
 from intents.grammar import read
@@ -85,7 +87,7 @@ def asks_to_stop(text: str, vocabulary: Vocabulary) -> bool:
     "Desist from going there" is read, and not spotted: it takes some milliseconds, which whoever
     reads lines has, where waiting for the line before takes seconds. Nothing is reworded.
     """
-    text = _whole(text)
+    text = with_signs(_whole(text))
     if len(text) > MAX_CHARACTERS or _ERRAND.search(text):
         return False
     outcome = first_look(text, vocabulary, Context()).outcome
@@ -107,7 +109,7 @@ def hear(
     for nothing, what is not to be done and what is beyond all limits is the grammar's to answer.
     """
     started = time.perf_counter()
-    text = _whole(text)
+    text = with_signs(_whole(text))
     before = context or Context()
     outcome, after = _hear(text, vocabulary, before)
     if fallback is not None and _is_for_another(outcome, before) and len(text) <= MAX_CHARACTERS:
@@ -180,6 +182,7 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         outcome, after = _within_bounds(text, vocabulary, context, last)
     careful = _as_cried(text, last, outcome)
     careful = cautious(text, _said(text, outcome, heard), careful, vocabulary)
+    careful = _uncontradicted(text, careful, index)
     return (careful, context if isinstance(careful, Refusal) else after)
 
 
@@ -189,10 +192,21 @@ def _as_cried(text: str, attempt: Attempt, outcome: Outcome) -> Outcome:
         waits = [goal for goal in outcome.goals if isinstance(goal, Wait) and not goal.duration_s]
         idle = len(waits) == len(outcome.goals) > 1
     else:
-        forbids = isinstance(attempt.error, Unasked) and _FORBIDS.search(text)
+        forbids = _FORBIDS.search(text)
+        forbids = forbids and (
+            isinstance(attempt.error, Unasked) or forbids.group().lower() == "never"
+        )
         idle = isinstance(outcome, Refusal) and not forbids
     cried = idle and is_insistent(text)
     return Goals(goals=(Stop(),), parser="stop") if cried else outcome
+
+
+def _uncontradicted(text: str, outcome: Outcome, index: NameIndex) -> Outcome:
+    """An outcome, as a question where what was said contradicts its goals."""
+    found = contradiction(text, outcome.goals, index) if isinstance(outcome, Goals) else None
+    if found is None:
+        return outcome
+    return just_that(text, Unpromised(f"I heard “{found.said}” and may get it wrong", found.goals))
 
 
 def _said(text: str, outcome: Outcome, heard: dict[str, Attempt]) -> str:

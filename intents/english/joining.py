@@ -1,35 +1,66 @@
 """What two clauses in a row mean together."""
 
+from collections.abc import Collection
+
 from msgspec.structs import replace
 
+from intents.english.words import lexicon
 from intents.goals import (
     DIRECTIONS,
     OPERATOR,
     Ask,
     Balance,
     Bring,
+    Close,
     Count,
     Find,
+    Follow,
     ForEach,
+    Gesture,
     Give,
     Goal,
     GoTo,
+    Greet,
     Guide,
     If,
     LookAt,
     Meet,
     ObjectQuery,
+    Open,
     Person,
     Pick,
     Place,
     Present,
+    Report,
     Say,
+    Switch,
     Tell,
     Wait,
 )
 
 _HANDS = 2
 _MOVES = (Bring, Give, Place)
+
+
+_LASTING = (Find, Count, Guide, Follow, Greet, LookAt, Open, Close, Switch, Report, Tell, Balance)
+"""What is so, or known, once it is done: asked for again it is the same."""
+_SHORT = (Gesture,)
+"""What can be done several times, and said several times for nothing: "wave, wave!"."""
+_AGAIN = lexicon.words("again twice thrice once more times time another repeat")
+_LINKED = lexicon.words("and then after")
+
+
+def said_once(goals: list[Goal], words: Collection[str]) -> list[Goal]:
+    """Goals without those that only say the one before again: "sit down, sit down!"."""
+    if not _AGAIN.isdisjoint(words):
+        return goals
+    kept: list[Goal] = []
+    for goal in goals:
+        same = bool(kept) and kept[-1] == goal
+        short = isinstance(goal, _SHORT) and _LINKED.isdisjoint(words)
+        if not (same and (short or isinstance(goal, _LASTING))):
+            kept.append(goal)
+    return kept
 
 
 def joined(before: list[Goal], goal: Goal, *, first: str) -> Goal:
@@ -53,6 +84,9 @@ def joined(before: list[Goal], goal: Goal, *, first: str) -> Goal:
     if isinstance(last, Balance) and isinstance(goal, Wait) and first in _HOLDS:
         before.pop()
         return replace(last, duration_s=goal.duration_s)
+    if isinstance(last, Guide) and isinstance(goal, GoTo) and goal.place:
+        further = first in lexicon.DETERMINERS | {"to"} or first in goal.place.lower().split()
+        return replace(last, to=goal.place) if further else goal  # ..., and then *the bar*
     for join in (_each_in_turn, _handed_over_there, _given_there, _found_there):
         made = join(last, goal)
         if made is not None:

@@ -42,7 +42,9 @@ INTERJECTIONS = lexicon.words(
     "jeez jeepers heavens goodness gracious mercy lord lordy christ jesus damn dang darn drat "
     "blast bother bugger fiddlesticks hurrah hooray yay yippee yikes bah pah tut tsk eh huh ahem "
     "lol haha hehe omg ffs smh ngl tbh fyi btw cor strewth begorrah alas well aye ha hah hm mm "
-    "sheesh shucks"
+    "sheesh shucks yuck yuk yucky eww ew ick icky wahey whee bravo hush nu oi oy oho ay wah haiya "
+    "alamak aiyo aiyah allez voila mamma splendid marvellous typical honestly smashing nonsense "
+    "rubbish hallelujah amen oof whoa uff ach oje"
 )
 _SOUND = re.compile(r"(?:a+h+|a+r+g+h*|o+h+|o+w+|e+k+|u+g+h+|(?:h[aeio]+){2,}h?|b+r+|h+m+|p+f+t?)")
 """What is cried in no spelling of its own: "aaargh", "hahaha"."""

@@ -125,6 +125,8 @@ def _is_subject(text: Text, at: int) -> bool:
     word = text.word(at)
     if not word.isalpha() or verbs_at(text.words, at) or word in lexicon.FUNCTION_WORDS:
         return False
+    if word in _ADVERBS:
+        return False  # how many cups *still got* on the table
     return not word.endswith(("ed", "ing")) and (word,) not in lexicon.CONNECTORS
 
 

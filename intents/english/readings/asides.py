@@ -328,7 +328,11 @@ def somebody_else(text: Text) -> str:
         called_more = _past_endearment(text, end)
         after = skip_openings(text, called_more)
         asked = text.word(called_more + 1) in _MODALS and text.word(called_more + 2) == "you"
-        commands = asked or bool(verbs_at(text.words, after)) or after > end + 1
+        told = text.words[called_more + 1 : called_more + 4] == ["your", "good", "self"]
+        told = told or (
+            text.word(called_more + 1) == "you" and text.word(called_more + 2) in _MODALS
+        )
+        commands = asked or told or bool(verbs_at(text.words, after)) or after > end + 1
         noted = end < len(text) and text.tokens[end].raw == ":"  # Ada: sitting or lying?
         if end > at and calls and text.word(end) == COMMA and commands and not noted:
             return text.raw(at, end)

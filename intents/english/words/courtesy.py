@@ -19,15 +19,20 @@ _GRACIOUS = lexicon.words(
     "would can may might will be so very kind good possible have has had get got find the time "
     "moment moments minute minutes second seconds sec secs mo tick chance free spare busy okay ok "
     "all right alright fine convenient like want wish please to ask at some point able willing "
-    "enough happen really feel up ready please god allows only 's nothing else on for with or me"
+    "enough happen really feel up ready please god allows only 's nothing else on for with or me "
+    "burden inconvenient inconvenience troubling troublesome bold say know myself ourselves fates "
+    "fate permit permits permitted allow allowed fickle by miracle some ever such one"
 )
 """What a courtesy that begins with "if" or "when" is made of."""
 _GRACE = lexicon.words(
     "trouble bother problem hassle mind kind possible time moment minute second sec secs mo tick "
     "chance spare busy okay ok right alright fine convenient like want wish please could would can "
-    "may able willing ready free happen ask"
+    "may able willing ready free happen ask burden inconvenient inconvenience troubling "
+    "troublesome bold say know permit permits permitted allow allowed allows"
 )
 """One of these is in it."""
+_GRACED = lexicon.words("you it possible fates fate god")
+"""Whose grace it is."""
 _TAGS = lexicon.words("would will could can do does did is are should shall may won ca")
 _TAGGED = lexicon.words("you ya yah it we they he she i")
 _THANKS = lexicon.words("thanks thank ta cheers thx ty thankyou")
@@ -64,6 +69,7 @@ _TAILS = lexicon.phrases(
     "right this minute,quick as you can,as quick as you can,as fast as you can,"
     "as quickly as you can,as soon as you can,and make it snappy,and make it quick,and hurry,"
     "and hurry up,and nothing else,and nothing more,and be quick,and be quick about it,"
+    "go go go,go go,quick quick,now now,hop hop,vite vite,allez allez,"
     "arrange,oblige,do the needful,do needful,and oblige,do oblige,get a move on,look lively,"
     "look sharp,hop to it,jump to it,shake a leg,snap to it,move it,"
     "get cracking,come on,make haste,spit spot,vamos,andale,and step on it,and quick,and quickly,"
@@ -169,7 +175,8 @@ def _gracious(words: list[str], at: int) -> int | None:
     said = words[at:end]
     if any(said[n : n + 2] in (["find", "it"], ["get", "it"]) for n in range(len(said))):
         return None  # or the tea, if you cannot find it
-    asks = _GRACE.intersection(said) and ("you" in said or "it" in said or "possible" in said)
+    mine = said[1:3] in (["i", "may"], ["i", "might"], ["i", "am"])
+    asks = _GRACE.intersection(said) and (mine or not _GRACED.isdisjoint(said))
     closed = (
         _word(words, end) in _SIGNS
         or _wishes(words, end)

@@ -19,7 +19,7 @@ _LONGEST = 3
 
 def in_english_order(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens in the order that the grammar knows."""
-    tokens = _pointed(_stated(tokens))
+    tokens = _verb_second(_pointed(_stated(tokens)), index)
     for at in range(len(tokens) - 3, -1, -1):
         tokens = _described_ahead(tokens, at, index) or _chosen_from(tokens, at, index) or tokens
     return tokens
@@ -40,6 +40,21 @@ def _stated(tokens: list[Token]) -> list[Token]:
         else:
             plain.append(token)
     return plain
+
+
+def _verb_second(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """When Ada in the hall *is*, ...: when Ada is in the hall."""
+    said = [token.text for token in tokens]
+    for at in range(len(said) - 4):
+        first = at + 1 + (said[at + 1] in DETERMINERS)
+        match = index.match(said, first) if said[at] in ("if", "when") else None
+        end = said.index(COMMA, at) if match is not None and COMMA in said[at:] else 0
+        if match is None or end - 1 <= match.end or said[end - 1] not in ("is", "are"):
+            continue
+        if tuple(said[match.end : match.end + 1]) in LOCATIVES:
+            verb, rest = tokens[end - 1], tokens[match.end : end - 1]
+            return [*tokens[: match.end], verb, *rest, *tokens[end:]]
+    return tokens
 
 
 def _pointed(tokens: list[Token]) -> list[Token]:

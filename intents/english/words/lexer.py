@@ -48,6 +48,15 @@ _SLIPS = tuple(
     for slip, meant in (
         (r"\btoo(?=\s+(?:the|my|your|a|an|her|his)\b)", "to"),
         (r"\b(i|we) should like\b", r"\1 would like"),
+        (r"\s\+\s", " and "),
+        (r",?\s+or (?:not|what|no)(?=\s*[?.!]*$)", ""),
+        (r"((?:^|[,.;]|\bthen|\band)\s*)(left|right) turn\b", r"\1turn \2"),
+        (
+            r"((?:^|[,.;]|\bthen|\band|\bplease)\s*(?:turn|close|open|shut|put|take|switch|go|come|"
+            r"walk|carry|place|lay|lift)) you(?= (?:it|me|the|a|an|my|to|left|right|off|on|\d|"
+            r"ninety|one|two|here|there)\b)",
+            r"\1",
+        ),
         (r"\b(counter|anti)[\s-]+(?=clockwise\b)", r"\1"),
         (r"\b(would|could|will|won't|can|can't)\s?(?:ja|jya|ya|cha)\b", r"\1 you"),
         (r"\bform(?=\s+(?:the|my|your|her|his)\b)", "from"),

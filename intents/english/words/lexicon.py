@@ -230,7 +230,11 @@ FILLERS = phrases(
     "if that is all right,if it is okay,if you like,if you want,if you wish,whenever you are ready,"
     "when you are ready,whenever you like,wherever she goes,wherever he goes,wherever they go,"
     "at the moment,at this moment,at present,for the moment,properly,neatly,nicely,tidily,"
-    "by any chance,perchance,by some chance,"
+    "high and low,far and wide,by any chance,perchance,by some chance,by some miracle,"
+    "by a miracle,by some stroke of luck,"
+    "with any luck,with a bit of luck,at your earliest convenience,at your convenience,"
+    "at your leisure,in your own time,in your own good time,for the record,for the love of god,"
+    "for the love of mike,"
     "mind you,on your way back,on the way back,on your way past,"
     "on your way,wherever i go,everywhere she goes,everywhere he goes,everywhere i go,"
     "see if you can,"
@@ -248,6 +252,7 @@ FILLERS = phrases(
 ) | {(",", "like", ",")}
 """Words that can be dropped wherever they stand."""
 _OPENINGS = phrases(
+    "would you ever,will you ever,could you ever,can you ever,"
     "can somebody,can someone,could somebody,could someone,can anyone,could anyone,would someone,"
     "would somebody,can you,could you,would you,will you,can you please,would you mind,do you mind,"
     "would you be able to,are you able to,is it possible for you to,is it possible to,"

@@ -19,6 +19,7 @@ TAKES_BACK = lexicon.phrases(
     "i meant,i mean to say,i meant to say,or rather,rather,make that,make it,no make that,"
     "correction,oops,whoops,my mistake,scratch that,i should say,pardon,better,or better,"
     "cancel that,scrap that,strike that,delete that,belay that,forget that,negative,or no,"
+    "upon reflection,on reflection,upon mature reflection,on mature reflection,"
     "what am i saying,no better,on second thoughts,on second thought"
 )
 """What is said before what is meant instead."""

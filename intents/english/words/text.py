@@ -33,6 +33,7 @@ from intents.english.words.particles import without_particles
 from intents.english.words.pauses import pauses_as_waits
 from intents.english.words.precise import plain_quantities
 from intents.english.words.presence import being_there
+from intents.english.words.purposes import without_purposes
 from intents.english.words.repairs import as_one_marker, repaired
 from intents.english.words.singling_out import singled_out
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
@@ -128,7 +129,7 @@ class Text:
             listed_superlatives(_without_name(tokenize(text), self.index)), self.index
         )
         tokens = in_sentences(without_particles(tokens, self.index), self.index)
-        tokens = in_english_order(tokens, self.index)
+        tokens = without_purposes(in_english_order(tokens, self.index), self.index)
         begins = True
         pace = _PACE.search(text)
         self.pace = pace.group().strip() if pace else ""

@@ -41,6 +41,9 @@ _SHORT_FORMS = {
         ("through", "thru"), ("next", "nxt"), ("back", "bak bck"), ("before", "b4"),
         ("because", "bc bcz bcoz becoz becuz cuz coz cos cus"), ("and", "nd"), ("of", "ov"),
         ("your", "yr yur yor"), ("you", "ya ye yous youse yinz thee"), ("yourself", "urself"),
+        ("except", "xept xcept exept excpt xcpt"), ("yourself", "yersel yersell thissen thisen"),
+        ("myself", "masel mesel missen misen"), ("himself", "hissel hissen"),
+        ("take", "tek tak"), ("make", "mek"),
         ("straight", "str8"), ("together", "2gether"),
         # nouns and the like
         ("something", "smth sth sumthin sumthing somethin"), ("somebody", "some1 sum1"),

@@ -75,7 +75,7 @@ SPELLINGS: dict[str, str] = {
         "return with,come back with,convey,haul,supply,send,drag,bring out,move,get,"
         "pull,schlep,hump,heft,whisk,nip,zip,dash,shuttle,wheel,dispatch,hoof,trundle,"
         "relay,smuggle,sneak,pass along,fire over,fire,distribute,shift,hand deliver,arrange,"
-        "nab,yoink,bring round,take round,drop round,fetch over,walk,jog"
+        "nab,yoink,bring round,take round,drop round,fetch over,walk,jog,bear,proffer,courier,remit"
     ),
     "inform": (
         "i need,i want,i would like,give me,give us,give,provide,provide me with,show me,share,"
@@ -84,7 +84,8 @@ SPELLINGS: dict[str, str] = {
     "give": (
         "give,chuck,toss,sling,lob,bung,hand,hand over,pass,serve,offer,give over,pass over,"
         "present,provide,"
-        "pass on,hand out,distribute,share,hand in,lend,feed,supply,furnish,equip,provision"
+        "pass on,hand out,distribute,share,hand in,lend,feed,supply,furnish,equip,provision,issue,"
+        "furnish me with,furnish us with"
     ),
     "want": (
         "hook me up with,i would murder,i could fair go,i could go,i would not mind,i could eat,"

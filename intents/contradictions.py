@@ -1,0 +1,156 @@
+"""What a sentence says that its goals contradict, whatever reading they came from.
+
+The law of faithfulness looks at words that come back in no goal. These all come back, or were
+passed over with good reason, and still the goals are not what was said: what was taken back is done
+as well as what was said instead ("to Ada no to Leo"), one of two is done where either was asked
+for, something is done at once that was to be done at an hour, what was to be done otherwise is
+lost, and so is an exception. It is asked about.
+"""
+
+import re
+from collections.abc import Iterator, Sequence
+from itertools import chain, combinations
+from typing import NamedTuple
+
+from intents.english.words import lexicon
+from intents.english.words.names import NameIndex
+from intents.goals import (
+    Answer,
+    Ask,
+    Bring,
+    Give,
+    Goal,
+    GoTo,
+    Guide,
+    If,
+    Place,
+    Say,
+    each,
+    to_builtins,
+)
+
+_WORDS = re.compile(r"[\w']+")
+_QUOTED = re.compile(r"[\"“«][^\"”»]*[\"”»]")
+_TAKES_BACK = re.compile(
+    r"\b(?:(?:wait|actually|sorry|oh|ah|but|hang on)\W+)?(?:no|nah|naw|nope)\b(?!\s+(?:rush|hurry|"
+    r"problem|need|worries|matter|longer|more|one|idea|doubt|trouble|other|further))|"
+    r"\b(?:scratch|scrap|strike|forget) that\b|\bcorrection\b|\bwhat am i saying\b|"
+    r"\bon second thoughts?\b|\bi mean(?:t)?\b|\bsorry\b|\binstead\b"
+)
+"""What takes back what was said before it."""
+_THEN = re.compile(r"\b(?:then|afterwards|after that|next|first|both)\b")
+_OTHERWISE = re.compile(
+    r"(?:[,.;:…—–]|\bor|\band)\s*(?:otherwise|elsewise|else|if not|failing (?:that|which))\b\W*"
+    r"(?P<then>.*)"
+)
+_NOTHING = re.compile(
+    r"(?:(?:just|then|please|you can|simply)\W+)*(?:never ?mind|nvm|don'?t|do not|leave|"
+    r"forget|no\b|stay|it'?s|that'?s|fine|do nothing|skip|not to|so be|worry)"
+)
+"""What is to be done otherwise, if that is nothing."""
+_EITHER = re.compile(r"\beither\b[^.!?]*\bor\b")
+_HOUR = re.compile(
+    r"(?:^|[,.;:!?]\s*|\b(?:and|please|robot|at|by|for)\s+)(?:at |by |for )?"
+    r"(?:every (?:morning|evening|night|day|week|hour)|\w+ o'?clock|"
+    r"(?:half past|quarter (?:past|to)) \w+|(?:at|by) \w+ (?:tomorrow|tonight|sharp|am|pm))\b"
+)
+"""When something is to be done, at the beginning of a clause or behind "at"."""
+_WITHOUT = re.compile(
+    r"\b(?:without|except|excepting|save|bar|but not|minus)\s+(?:for\s+)?"
+    r"(?:(?:the|that|my|your|his|her|our|this)\s+)?"
+)
+_SPEAKS = (Say, Ask, Answer)
+_WITHER = (Bring, Give, Place, Guide)
+_MOVES = 2
+
+
+class Contradiction(NamedTuple):
+    """What was said that goals contradict, in its own words, and the goals that may be meant."""
+
+    said: str
+    goals: tuple[Goal, ...]
+
+
+def contradiction(text: str, goals: tuple[Goal, ...], index: NameIndex) -> Contradiction | None:
+    """What was said that goals contradict; None if they do not."""
+    plain = " ".join(_QUOTED.sub(" ", text.lower().replace("’", "'")).split())
+    every = list(each(goals))
+    speaks = any(isinstance(goal, _SPEAKS) for goal in every)
+    if not speaks and not any(isinstance(goal, If) for goal in every):
+        taken_back = _taken_back(plain, goals)
+        if taken_back is not None:
+            return taken_back
+        either = _EITHER.search(plain) if len(goals) == 1 else None
+        found = either or _HOUR.search(plain)
+        if found:
+            return Contradiction(found.group().strip(" ,.;:!?"), goals)
+    lost = next(chain(_lost_otherwise(plain, every), _lost_exception(plain, every, index)), "")
+    return Contradiction(lost, goals) if lost else None
+
+
+def _taken_back(plain: str, goals: tuple[Goal, ...]) -> Contradiction | None:
+    """What takes back an order that is done all the same; what was said last may be meant."""
+    if len(goals) < _MOVES or _THEN.search(plain):
+        return None
+    for found in _TAKES_BACK.finditer(plain):
+        parts = plain[: found.start()], plain[found.end() :]
+        for one, two in combinations(goals, 2):
+            if _are_rivals(one, two, *parts):
+                kept = tuple(goal for goal in goals if goal is not one)
+                return Contradiction(found.group().strip(" ,.;"), kept)
+    return None
+
+
+def _are_rivals(one: Goal, two: Goal, before: str, after: str) -> bool:
+    """Whether the same is to be done in two ways, one said ahead of a word and one behind it."""
+    if isinstance(one, GoTo) and isinstance(two, GoTo) and one.by and two.by:
+        ways = one.by.forward_m or 0.0, two.by.forward_m or 0.0
+        return ways[0] * ways[1] < 0
+    if not isinstance(one, _WITHER) or not isinstance(two, _WITHER):
+        return False
+    here, there = _whither(one), _whither(two)
+    thing, other = (_about(goal) for goal in (one, two))
+    same = thing == other and bool(thing)
+    return same and here != there and _said(here, before) and _said(there, after)
+
+
+def _about(goal: Goal) -> str:
+    """The name of what is moved, or of who is led."""
+    told = to_builtins((goal,))[0]
+    about = told.get("object") or told.get("person") or {}
+    return str(about.get("name") or about.get("category") or "") if isinstance(about, dict) else ""
+
+
+def _whither(goal: Goal) -> str:
+    told = to_builtins((goal,))[0]
+    to = told.get("to") or told.get("on") or told.get("in") or ""
+    return str(to.get("name") or to.get("who") or "") if isinstance(to, dict) else str(to)
+
+
+def _said(where: str, part: str) -> bool:
+    """Whether a place or somebody is named in a part of a sentence; who speaks needs no name."""
+    words = set(_WORDS.findall(part))
+    return where == "operator" or not words.isdisjoint(where.lower().split())
+
+
+def _lost_otherwise(plain: str, every: Sequence[Goal]) -> Iterator[str]:
+    """Otherwise *the iron*: where no goal says what is to be done otherwise."""
+    conditions = [goal for goal in every if isinstance(goal, If)]
+    if not conditions or any(goal.else_ for goal in conditions):
+        return
+    for found in _OTHERWISE.finditer(plain):
+        rest = found["then"]
+        if len(rest.split()) > 1 and not _NOTHING.match(rest):
+            yield found.group().strip(" ,.;:")
+
+
+def _lost_exception(plain: str, every: Sequence[Goal], index: NameIndex) -> Iterator[str]:
+    """All drinks *without the beer*: where something is done with all of them."""
+    words = set(plain.split())
+    if words.isdisjoint(lexicon.ALL | {"everything"}) or "'except':" in str(to_builtins(every)):
+        return
+    for found in _WITHOUT.finditer(plain):
+        rest = _WORDS.findall(plain[found.end() :])
+        match = index.match(rest, 0) if rest else None
+        if match is not None and match.of("object", "category"):
+            yield f"{found.group()}{' '.join(rest[: match.end])}"
