@@ -12,17 +12,22 @@ from collections.abc import Iterator, Sequence
 from itertools import chain, combinations
 from typing import NamedTuple
 
+from msgspec.structs import replace
+
 from intents.english.words import lexicon
 from intents.english.words.names import NameIndex
 from intents.goals import (
     Answer,
     Ask,
     Bring,
+    ForEach,
     Give,
     Goal,
     GoTo,
     Guide,
     If,
+    LookAt,
+    ObjectQuery,
     Place,
     Say,
     each,
@@ -59,6 +64,14 @@ _WITHOUT = re.compile(
     r"\b(?:without|except|excepting|save|bar|but not|minus)\s+(?:for\s+)?"
     r"(?:(?:the|that|my|your|his|her|our|this)\s+)?"
 )
+_SEEN_TO = re.compile(r"\bsee to (?:it|that|this|them|the|my|your)\b(?! that)")
+_SHARE = re.compile(r"\bone (?:is )?for \w+")
+_NAMED = re.compile(
+    r"^(?:\w+, )?(?:my|our|the|his|her|that|this) (?!one\b|thing\b)\w+"
+    r"(?:'s| is| are| was| fell| went) "
+    r"(?=.*\b(?:it|them)\b)"
+)
+"""Something that is told of, whatever it is."""
 _SPEAKS = (Say, Ask, Answer)
 _WITHER = (Bring, Give, Place, Guide)
 _MOVES = 2
@@ -77,9 +90,10 @@ def contradiction(text: str, goals: tuple[Goal, ...], index: NameIndex) -> Contr
     every = list(each(goals))
     speaks = any(isinstance(goal, _SPEAKS) for goal in every)
     if not speaks and not any(isinstance(goal, If) for goal in every):
-        taken_back = _taken_back(plain, goals)
-        if taken_back is not None:
-            return taken_back
+        for sense in (_taken_back, _counted_twice, _of_nothing_known, _only_looked_at):
+            told = sense(plain, goals)
+            if told is not None:
+                return told
         either = _EITHER.search(plain) if len(goals) == 1 else None
         found = either or _HOUR.search(plain)
         if found:
@@ -99,6 +113,37 @@ def _taken_back(plain: str, goals: tuple[Goal, ...]) -> Contradiction | None:
                 kept = tuple(goal for goal in goals if goal is not one)
                 return Contradiction(found.group().strip(" ,.;"), kept)
     return None
+
+
+def _counted_twice(plain: str, goals: tuple[Goal, ...]) -> Contradiction | None:
+    """Two cups, *one for me and one for Ada*: two in all."""
+    shares = list(_SHARE.finditer(plain))
+    whole = [
+        goal
+        for goal in goals
+        if isinstance(goal, Bring | Give) and goal.object.count == len(shares) > 1
+    ]
+    if not whole:
+        return None
+    one = tuple(
+        replace(goal, object=replace(goal.object, count=1)) if goal in whole else goal
+        for goal in goals
+    )
+    return Contradiction(plain[shares[0].start() : shares[-1].end()], one)
+
+
+def _of_nothing_known(plain: str, goals: tuple[Goal, ...]) -> Contradiction | None:
+    """*My pipe's* on the sill, fetch it: what is in hand is fetched for what nobody knows."""
+    first = goals[0] if goals else None
+    held = isinstance(first, Bring | Give | Place) and first.object == ObjectQuery(held=True)
+    found = _NAMED.search(plain) if held else None
+    return Contradiction(found.group().strip(), goals) if found else None
+
+
+def _only_looked_at(plain: str, goals: tuple[Goal, ...]) -> Contradiction | None:
+    """The lamp is broken, *see to it*: more than a look is asked for, and nobody says what."""
+    found = _SEEN_TO.search(plain) if any(isinstance(goal, LookAt) for goal in goals) else None
+    return Contradiction(found.group(), goals) if found else None
 
 
 def _are_rivals(one: Goal, two: Goal, before: str, after: str) -> bool:
@@ -146,6 +191,9 @@ def _lost_otherwise(plain: str, every: Sequence[Goal]) -> Iterator[str]:
 
 def _lost_exception(plain: str, every: Sequence[Goal], index: NameIndex) -> Iterator[str]:
     """All drinks *without the beer*: where something is done with all of them."""
+    named = [one.object.name for one in every if isinstance(one, ForEach)]
+    if all(named):
+        return  # all toy cars, but not the ball: it is none of them
     words = set(plain.split())
     if words.isdisjoint(lexicon.ALL | {"everything"}) or "'except':" in str(to_builtins(every)):
         return

@@ -68,6 +68,7 @@ _LIMITING = (
     CARRYING | CONDITIONS | TIMES | CALENDAR | DENIALS | CHOICES | QUANTITIES | MEASURES | SPOTS
 ) - lexicon.words("one")
 _POINTING = lexicon.words("it him her them this that these those he she they there")
+_YOU = lexicon.words("you you're you've your yourself u ur ya ye yer y'all thou")
 _HOW = lexicon.words("how why when who")
 
 
@@ -240,6 +241,11 @@ def _tells_of_itself(case: _Case) -> bool:
     return all(isinstance(goal, Report) for goal in case.goals)
 
 
+def _is_not_of_itself(case: _Case) -> bool:
+    """Whether the robot would tell of itself to who does not speak to it: "where's my hat?"."""
+    return _tells_of_itself(case) and _YOU.isdisjoint(case.words)
+
+
 def _ends_something(case: _Case) -> bool:
     """Whether all is to tell or to end something, easily read out of talk: "forget it"."""
     small = all(isinstance(goal, Report | Cancel) for goal in case.goals)
@@ -306,6 +312,7 @@ _DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
     (_is_quoted, NEVER),
     (_only_asks, NEVER),
     (_calls_somebody, NEVER),
+    (_is_not_of_itself, NEVER),
     (_is_idle, SUREST),
     (_is_unsure, SUREST),
     (_ends_something, SUREST),

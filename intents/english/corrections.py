@@ -78,8 +78,8 @@ def taken_back(sentence: Sentence, at: int, last: list[Goal]) -> Found | None:
     while text.word(at) in (COMMA, FULL_STOP) and at < len(text):
         at += 1
     end = marker_end(text, at)
-    if end is None or not last:
-        return None
+    if end is None or not last or text.word(end) in ("i", "we"):
+        return None  # no, I do not know why: nobody is meant by "I" in another's place
     begins = at == 0  # it takes back what was said before, if it is no command of its own
     plain = text.word(end - 1) != COMMA and end < at + 2  # no cup there?
     if begins and (verbs_at(text.words, end) or (plain and text.word(end) != "the")):

@@ -70,6 +70,9 @@ CARRYING = (
     | _ORDINALS | _BOARDS | lexicon.CLOTHES | _LOCKS
 ) - lexicon.words("left right finest light other same the to short long one")  # fmt: skip
 """Words of closed classes that say something by themselves: what, how many, which, in what way."""
+_EXTREMES = lexicon.words(
+    "furthest farthest nearest closest leftmost rightmost topmost lowest highest"
+)
 _MARKS = frozenset(lexicon.COLORS) | frozenset(lexicon.SIZES)
 _WHICH = frozenset(("the", "that", "this", *_MARKS))
 _NO_SUPERLATIVES = lexicon.words(
@@ -140,7 +143,7 @@ def _singling_out(text: Text, start: int, end: int) -> Iterator[int]:
         yield first - 1
     for n in range(first + 1, end):
         match = text.name_at(n)
-        if text.word(n) in _MARKS or (match is not None and not match.of("person")):
+        if text.word(n) in _MARKS | _EXTREMES or (match is not None and not match.of("person")):
             yield n
 
 

@@ -44,7 +44,7 @@ ADDRESSES = lexicon.words(
     "love luv dear dearie darling sweetheart sweetie honey hun hon pet duck mate matey pal buddy "
     "bud bro dude man guv boss chief friend robot bot droid machine sir madam maam mister champ "
     "duck ducky duckie petal hinny treacle sunshine babe doll chap fella lad lass "
-    "mister buster genius tinman oi yo hey ahem"
+    "mister buster genius tinman oi yo hey ahem hen son sonny laddie lassie flower chuck"
 )
 """What the robot may be called."""
 _FAMILIAR = lexicon.words(
@@ -70,6 +70,7 @@ _TAILS = lexicon.phrases(
     "as quickly as you can,as soon as you can,and make it snappy,and make it quick,and hurry,"
     "and hurry up,and nothing else,and nothing more,and be quick,and be quick about it,"
     "go go go,go go,quick quick,now now,hop hop,vite vite,allez allez,"
+    "this time,once and for all,"
     "arrange,oblige,do the needful,do needful,and oblige,do oblige,get a move on,look lively,"
     "look sharp,hop to it,jump to it,shake a leg,snap to it,move it,"
     "get cracking,come on,make haste,spit spot,vamos,andale,and step on it,and quick,and quickly,"

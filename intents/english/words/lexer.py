@@ -49,6 +49,14 @@ _SLIPS = tuple(
         (r"\btoo(?=\s+(?:the|my|your|a|an|her|his)\b)", "to"),
         (r"\b(i|we) should like\b", r"\1 would like"),
         (r"\s\+\s", " and "),
+        (r"\bits(?= (?:a|an|so|too|very|really|getting|going|been|not|just|all)\b)", "it's"),
+        (r"((?:^|[.!?,;])\s*)nae (?=\w+ (?:for|in|on)\b)", r"\1no "),
+        (r"\bo(?= (?:the|that|them|those|ma|my|your|yon)\b)", "of"),
+        (
+            r"\b(?:i|we) (?:(?:must|have to|would|will|do|shall|really) )?(?:ask|beg|implore|"
+            r"request|entreat|urge) (?:of )?you,? (?:(?:please|kindly),? )?not to\b",
+            "do not",
+        ),
         (r",?\s+or (?:not|what|no)(?=\s*[?.!]*$)", ""),
         (r"((?:^|[,.;]|\bthen|\band)\s*)(left|right) turn\b", r"\1turn \2"),
         (

@@ -234,7 +234,7 @@ FILLERS = phrases(
     "by a miracle,by some stroke of luck,"
     "with any luck,with a bit of luck,at your earliest convenience,at your convenience,"
     "at your leisure,in your own time,in your own good time,for the record,for the love of god,"
-    "for the love of mike,"
+    "for the love of mike,for the avoidance of doubt,"
     "mind you,on your way back,on the way back,on your way past,"
     "on your way,wherever i go,everywhere she goes,everywhere he goes,everywhere i go,"
     "see if you can,"

@@ -5,6 +5,7 @@ from collections.abc import Collection, Mapping
 from copy import copy
 from typing import TypeVar
 
+from intents.english.words.appositions import without_appositions
 from intents.english.words.asked_conditions import conditional_questions
 from intents.english.words.asking import plainly_asked
 from intents.english.words.contrasts import but_this
@@ -153,6 +154,7 @@ class Text:
         self.corrections += alike
         corrected = _wished(pauses_as_waits(plain_quantities(repaired(as_one_marker(corrected)))))
         corrected = but_this(all_but(all_there_is(corrected)))
+        corrected = without_appositions(corrected, self.index)
         corrected = plainly_asked(without_titles(corrected, self.index), self.index)
         self.manners: list[Manner]
         corrected, self.manners = manners(corrected)
