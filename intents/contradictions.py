@@ -28,6 +28,7 @@ from intents.goals import (
     If,
     LookAt,
     ObjectQuery,
+    Person,
     Place,
     Say,
     each,
@@ -73,7 +74,7 @@ _NAMED = re.compile(
 )
 """Something that is told of, whatever it is."""
 _SPEAKS = (Say, Ask, Answer)
-_WITHER = (Bring, Give, Place, Guide)
+_Moving = Bring | Give | Place | Guide
 _MOVES = 2
 
 
@@ -151,25 +152,30 @@ def _are_rivals(one: Goal, two: Goal, before: str, after: str) -> bool:
     if isinstance(one, GoTo) and isinstance(two, GoTo) and one.by and two.by:
         ways = one.by.forward_m or 0.0, two.by.forward_m or 0.0
         return ways[0] * ways[1] < 0
-    if not isinstance(one, _WITHER) or not isinstance(two, _WITHER):
+    if not isinstance(one, _Moving) or not isinstance(two, _Moving):
         return False
     here, there = _whither(one), _whither(two)
-    thing, other = (_about(goal) for goal in (one, two))
-    same = thing == other and bool(thing)
-    return same and here != there and _said(here, before) and _said(there, after)
+    thing, other = _about(one), _about(two)
+    return (
+        bool(thing)
+        and thing == other
+        and here != there
+        and _said(here, before)
+        and _said(there, after)
+    )
 
 
-def _about(goal: Goal) -> str:
+def _about(goal: _Moving) -> str:
     """The name of what is moved, or of who is led."""
-    told = to_builtins((goal,))[0]
-    about = told.get("object") or told.get("person") or {}
-    return str(about.get("name") or about.get("category") or "") if isinstance(about, dict) else ""
+    if isinstance(goal, Guide):
+        return goal.person.name or ""
+    return goal.object.name or goal.object.category or ""
 
 
-def _whither(goal: Goal) -> str:
-    told = to_builtins((goal,))[0]
-    to = told.get("to") or told.get("on") or told.get("in") or ""
-    return str(to.get("name") or to.get("who") or "") if isinstance(to, dict) else str(to)
+def _whither(goal: _Moving) -> str:
+    """Where it is moved to, or to whom."""
+    to = (goal.on or goal.in_) if isinstance(goal, Place) else goal.to
+    return (to.name or to.who or "") if isinstance(to, Person) else to or ""
 
 
 def _said(where: str, part: str) -> bool:
