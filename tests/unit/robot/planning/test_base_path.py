@@ -145,6 +145,26 @@ def test_a_doorway_is_passed_in_its_middle_and_elsewhere_there_is_room(
     assert not any(narrow)
 
 
+def test_who_has_just_come_through_a_doorway_does_not_go_back_through_it_for_more_room(
+    solver: Solver,
+) -> None:
+    bars = (
+        block("left bar", 2.0, 1.31, (0.1, 3.38, 1.0)),
+        block("right bar", 2.0, -2.11, (0.1, 1.78, 1.0)),
+    )
+    somebody = PersonInfo(id="ada", name="Ada", X_WO=SE3((2.97, -0.7, 0.0)), radius_m=0.37)
+    around = surroundings(more=bars)
+    around = msgspec.structs.replace(
+        around, map=msgspec.structs.replace(around.map, people=(somebody,))
+    )
+    request = BasePathRequest(
+        start=(2.30, -1.0, -0.83), goal=(2.6, -2.3, 0.0), around=around, clearance_m=0.16
+    )
+    found = solver.solve(request)
+    assert isinstance(found, BasePath)
+    assert min(x for x, _, _ in found.waypoints) > 2.05
+
+
 def test_a_gap_between_things_is_taken_only_if_the_way_round_is_long(solver: Solver) -> None:
     def way(*bars):
         request = BasePathRequest(
