@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from executive.skills.forecast import Forecast, Outlook
@@ -20,6 +22,10 @@ RECENT_S = 120.0
 """What was seen that long ago is taken to be so still: the length of a short job."""
 HIDDEN = 0.1
 """Where more of a surface may hide a thing, nothing is said of what is not there."""
+NEAR_M = 1.5
+"""Somebody that near to a surface may be what hides it."""
+FROM_ALL_SIDES = "from all sides"
+"""Evidence that it is the home itself that hides a part: no wait and no help changes that."""
 THERE_M, THERE = 0.35, 8.0
 """It is looked first near to where such a thing is believed to be."""
 
@@ -72,7 +78,10 @@ class Inspect(ScriptedSkill[InspectParams]):
             return
         for place in survey.places:
             if self._may_hide(survey, place):
-                raise give_up("place_not_seen", _unseen_words(survey, place), place=place.id)
+                told = {"place": place.id}
+                if self._stays_hidden(survey, place):
+                    told["looked"] = FROM_ALL_SIDES
+                raise give_up("place_not_seen", _unseen_words(survey, place), **told)
 
     def _survey(self) -> Survey:
         body, wanted = self.body, self.parameters
@@ -95,6 +104,15 @@ class Inspect(ScriptedSkill[InspectParams]):
         believed = [track.X_WO.p for track in self._tracks() if track.X_WO is not None]
         near = any((np.linalg.norm(unseen - np.array(p), axis=1) < THERE_M).any() for p in believed)
         return near or len(unseen) > HIDDEN * len(place.samples())
+
+    def _stays_hidden(self, survey: Survey, place: Place) -> bool:
+        """Whether nobody and no thing hides the rest of it: a board above the eyes, say."""
+        world = self.body.world
+        people = [track.X_WO.p for track in world.people if track.X_WO is not None]
+        near = any(math.dist(p[:2], place.X_WP.p[:2]) < NEAR_M for p in people)
+        things = [track.X_WO for track in world.tracks if track.X_WO is not None]
+        full = any(stands_on(X_WO, place) for X_WO in things)
+        return survey.seen_share(place) > 0.0 and not near and not full
 
     def _tracks(self) -> list[Track]:
         wanted = self.parameters.object_ids

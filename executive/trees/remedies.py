@@ -79,7 +79,10 @@ REMEDIES: dict[Remedy, tuple[str, Callable[[Errand, Failure], tuple[Errand, ...]
 
 def is_idle(remedy: Remedy, reason: Failure) -> bool:
     """Whether a remedy would only do again what the failure says was done to its end."""
-    return remedy == "look_again" and reason.evidence.get("looked") == "everywhere"
+    looked = reason.evidence.get("looked")
+    if looked == "from all sides":  # the top of a rack, above the eyes
+        return remedy in ("wait", "ask")
+    return remedy == "look_again" and looked == "everywhere"
 
 
 ASKING: frozenset[Remedy] = frozenset({"get_up", "ask"})

@@ -110,7 +110,8 @@ def count(goal: goals.Count, scene: Scene) -> Part:
         tell = answers.say_count(number_of, noun=noun, where=f" {where_words(query)}")
     elif query.at is None:
         ids = frozenset(info.id for info in scene.fitting(query))
-        looks = _looks_around(ids, scene)
+        everywhere = query.count == "all"  # all there are: in the whole house
+        looks = _looks_all_over(scene) if everywhere else _looks_around(ids, scene)
         tell = answers.count_everywhere(ids, scene.knowledge.map, noun=noun)
     else:
         ids = frozenset(info.id for info in scene.fitting(query))
@@ -123,6 +124,15 @@ def count(goal: goals.Count, scene: Scene) -> Part:
         )
     told = to_their_face(goal.to, scene)
     return Series(name=name, parts=(*looks, *told, Errand(name="say how many", params=tell)))
+
+
+def _looks_all_over(scene: Scene) -> tuple[Part, ...]:
+    """A look over every surface of the home."""
+    every = tuple(place.id for place in surfaces_of(scene.knowledge.map))
+    if not every:
+        return (tolerant(_look_over_the_room(scene)),)
+    look = Errand(name="look over every room", params=InspectParams(place_ids=every))
+    return (tolerant(look),)
 
 
 def _looks_around(ids: frozenset[str], scene: Scene) -> tuple[Part, ...]:

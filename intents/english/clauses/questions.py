@@ -1,5 +1,7 @@
 """Questions, asked outright ("how many cups are there?") or after tell ("... how many ...")."""
 
+from msgspec.structs import replace
+
 from intents.english.clauses.polar import BE, read_on, skip_being, yes_or_no
 from intents.english.clauses.self_talk import about_robot
 from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers, weight_at
@@ -54,7 +56,9 @@ def counted(text: Text, at: int, scope: Scope) -> Found:
     if phrase is None:
         raise Unclear("What shall I count?")
     end = read_on(text, phrase) if text.word(phrase.end) in BE else phrase.end
-    return [_count(phrase, scope)], end + 2 * (text.words[end : end + 2] in _FOR_ME)
+    return [_count(phrase, scope, all_over=text.all_over)], end + 2 * (
+        text.words[end : end + 2] in _FOR_ME
+    )
 
 
 def _those_who(text: Text, at: int) -> NounPhrase | None:
@@ -66,10 +70,15 @@ def _those_who(text: Text, at: int) -> NounPhrase | None:
 _FOR_ME = (["for", "me"], ["for", "us"])
 
 
-def _count(phrase: NounPhrase, scope: Scope, to: Person | None = None) -> Count:
+def _count(
+    phrase: NounPhrase, scope: Scope, to: Person | None = None, *, all_over: bool = False
+) -> Count:
+    """To count what a phrase describes; ``all_over`` the home, it is all of them."""
     if is_person(phrase, scope):
         return Count(person=to_person(phrase, scope), to=to)
-    return Count(object=to_object(phrase, scope), to=to)
+    things = to_object(phrase, scope)
+    loose = all_over and not (things.at or things.relation or things.count)
+    return Count(object=replace(things, count="all") if loose else things, to=to)
 
 
 def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
@@ -84,7 +93,7 @@ def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Found | N
         start += 2
     else:
         return None
-    phrase = noun_phrase(text, start)
+    phrase = noun_phrase(text, start) or _counted_before(text, start, scope)
     if phrase is None or (text.word(start - 1) == "much" and phrase.noun != "name"):
         return None
     if is_person(phrase, scope):
@@ -92,7 +101,16 @@ def _how_many(text: Text, at: int, scope: Scope, to: Person | None) -> Found | N
         return [Count(person=to_person(phrase, scope), to=to)], end
     phrase.end += text.word(phrase.end) in _STAND
     end = read_on(text, phrase)
-    return [Count(object=to_object(phrase, scope), to=to)], end
+    return [_count(phrase, scope, to, all_over=text.all_over)], end
+
+
+def _counted_before(text: Text, at: int, scope: Scope) -> NounPhrase | None:
+    """How many cups are on the shelf, and how many *on the bar*? Of those asked after before."""
+    if not isinstance(scope.last, Count) or scope.last.object is None:
+        return None
+    phrase = NounPhrase(at, skip_being(text, at), noun="one", said="one")
+    read_postmodifiers(text, phrase)
+    return phrase if phrase.places else None
 
 
 _STAND = lexicon.words(

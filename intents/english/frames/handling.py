@@ -409,14 +409,14 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
         objects = [scope.object]  # take the hammer from the bench and put in the box
     if not objects:
         raise Misfit("put what?")
-    if spot is None and _throws(clause):
-        spot = Target(in_=_trash(scope))
-    spot = spot or _home(clause, scope)
+    spot = spot or _told_otherwise(clause, scope)
     down = clause.sense == "drop" or "down" in clause.particles()
     if spot is None and clause.verb == "leave":
         return _left_there(slots, scope)
     if spot is None and not down:
         raise Unclear("Where shall I put it?" if len(objects) == 1 else "Where shall I put them?")
+    if spot:
+        slots.take_person("for")  # on the bar for Olga: that is on the bar
     slots.done()
     return [_each(o, lambda q: put_at(q, spot)) for o in objects]
 
@@ -431,6 +431,11 @@ def _left_there(slots: Slots, scope: Scope) -> list[Goal]:
         raise NotUnderstood("All right, I leave it as it is")
     slots.done()
     return []
+
+
+def _told_otherwise(clause: Clause, scope: Scope) -> Target | None:
+    """Where to, by the verb ("throw it away") or behind the order."""
+    return Target(in_=_trash(scope)) if _throws(clause) else _home(clause, scope)
 
 
 def _home(clause: Clause, scope: Scope) -> Target | None:

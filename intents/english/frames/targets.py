@@ -5,9 +5,15 @@ from typing import NamedTuple
 from msgspec.structs import replace
 
 from intents.english.frames.slots import Slots, detach_place
-from intents.english.phrases.complements import Clause
+from intents.english.phrases.complements import Clause, Complement
 from intents.english.phrases.phrase import SAID_HOW, Locative, NounPhrase
-from intents.english.phrases.referents import Scope, is_person, to_object, to_place
+from intents.english.phrases.referents import (
+    Scope,
+    is_person,
+    scope_of_ones,
+    to_object,
+    to_place,
+)
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
 from intents.english.words import lexicon
 from intents.goals import OPERATOR, How, ObjectQuery, Part, Place, Relation
@@ -48,7 +54,7 @@ def destination(slots: Slots) -> Target | None:
     at = slots.take("at")
     if at:
         other = at.phrases[1] if at.how == "between" and len(at.phrases) > 1 else None
-        return _spot(Locative(at.how, at.phrase, other), slots.scope)
+        return _spot(Locative(at.how, at.phrase, other), slots.scope, slots.peek(""))
     bares = [c for c in slots.rest if c.phrases and c.role == ""]
     there = next((c for c in bares[1:] if c.phrase.noun == "there"), None)
     last = slots.scope.last
@@ -72,7 +78,7 @@ def destination(slots: Slots) -> Target | None:
         return Target(in_=inside)
     if place is not None and bare is not None:
         place = _after_description(bare.phrases[-1], place, slots.scope)
-    return _spot(place, slots.scope) if place else None
+    return _spot(place, slots.scope, bare) if place else None
 
 
 def _after_description(phrase: NounPhrase, place: Locative, scope: Scope) -> Locative:
@@ -95,11 +101,13 @@ def _after_description(phrase: NounPhrase, place: Locative, scope: Scope) -> Loc
     return surface
 
 
-def _spot(place: Locative, scope: Scope) -> Target:
+def _spot(place: Locative, scope: Scope, put: Complement | None = None) -> Target:
+    """Where that is, of things that are `put`: "next to the green one" is of their kind."""
     if is_person(place.of, scope):
         raise Misfit("I can put things on or in places; to people I give them")
     if place.how in _BESIDE and (_is_thing(place.of) or _is_by_furniture(place)):
-        of = replace(to_object(place.of, scope, spots=True), count=None)
+        alike = scope_of_ones(put.phrases[-1], scope) if put and place.of.noun == "one" else scope
+        of = replace(to_object(place.of, alike, spots=True), count=None)
         other = replace(to_object(place.other, scope), count=None) if place.other else None
         return Target(relation=Relation(how=place.how, of=of, other=other))
     if place.how not in ("on", "in", None):
@@ -131,7 +139,7 @@ def moved_beside(clause: Clause, slots: Slots) -> Target | None:
         return None
     assert bare is not None
     bare.phrases[-1].places.pop()
-    return _spot(last[0], slots.scope)
+    return _spot(last[0], slots.scope, bare)
 
 
 def to_part(slots: Slots) -> Target | None:

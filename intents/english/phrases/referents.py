@@ -1,5 +1,6 @@
 """Noun phrases become objects, people and places; pronouns become what they stand for."""
 
+import dataclasses
 from dataclasses import dataclass
 from typing import cast
 
@@ -357,8 +358,9 @@ def _where(phrase: NounPhrase, scope: Scope) -> tuple[str | None, Relation | Non
     rooms: list[str] = []
     spots: list[str] = []
     relation = None
+    alike = scope_of_ones(phrase, scope)
     for place in phrase.places:
-        named = _relation(place, scope)
+        named = _relation(place, alike if place.of.noun == "one" else scope)
         if named:
             relation = named
             rooms += _rooms(place.of)
@@ -371,6 +373,16 @@ def _where(phrase: NounPhrase, scope: Scope) -> tuple[str | None, Relation | Non
             name = to_place(place.of, scope, within=place.how == "in")
             (rooms if place.of.name("room") == name else spots).append(name)
     return next(iter(spots + rooms), None), relation
+
+
+def scope_of_ones(phrase: NounPhrase, scope: Scope) -> Scope:
+    """The blue jar next to *the green one*: beside a thing that was named "one" is of its kind."""
+    name, category = phrase.name("object"), phrase.name("category")
+    if phrase.is_person or not (name or category):
+        known = scope.object and replace(scope.object, at=None, relation=None, count=None)
+        return dataclasses.replace(scope, object=known)
+    kind = ObjectQuery(name=name or None, category=None if name else category)
+    return dataclasses.replace(scope, object=kind)
 
 
 def _rooms(phrase: NounPhrase) -> list[str]:

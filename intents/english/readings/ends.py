@@ -124,10 +124,18 @@ def _where(sentence: Sentence, at: int) -> tuple[Complement, int] | None:
     return complements[0], end
 
 
-def _put(sentence: Sentence, at: int, phrase: NounPhrase, where: Complement, end: int) -> Found:
-    """A thing put somewhere."""
+def _put(
+    sentence: Sentence,
+    at: int,
+    phrase: NounPhrase,
+    where: Complement,
+    end: int,
+    *,
+    things: list[NounPhrase] | None = None,
+) -> Found:
+    """A thing put somewhere, or several `things`, of which the `phrase` is the last."""
     verb = " ".join(sentence.text.words[at : phrase.end])
-    thing = Complement(phrases=[phrase])
+    thing = Complement(phrases=things or [phrase])
     return framed(sentence, "put", verb, [thing, where], first=phrase.end, end=end)
 
 
@@ -166,17 +174,23 @@ def thing_first(sentence: Sentence, at: int) -> Found | None:
 
 
 def _all_of_these(sentence: Sentence, at: int) -> Found | None:
-    """A cup and two saucers *are to be brought* to Olga."""
+    """A cup and two saucers *are to be brought* to Olga; both *belong* on the bar."""
     things, end = read_list(sentence.text, at)
     if len(things) < _SEVERAL or not all(p.name("object", "category") for p in things):
         return None
     last = things[-1]
     last.end = end
-    return _passive(sentence, last, [Complement(phrases=things)])
+    found = _belongs(sentence, at, last, things)
+    return found or _passive(sentence, last, [Complement(phrases=things)])
 
 
-def _belongs(sentence: Sentence, at: int, phrase: NounPhrase) -> Found | None:
-    """The vase goes on the sill; all toys belong in the box; the mail goes to Ada."""
+def _belongs(
+    sentence: Sentence, at: int, phrase: NounPhrase, things: list[NounPhrase] | None = None
+) -> Found | None:
+    """The vase goes on the sill; all toys belong in the box; the mail goes to Ada.
+
+    Of several `things`, the `phrase` is the last.
+    """
     text, scope = sentence.text, sentence.scope
     start = text.phrase_end(_BELONGS, phrase.end)
     if start is None or not phrase.name("object", "category") or phrase.is_person:
@@ -187,10 +201,10 @@ def _belongs(sentence: Sentence, at: int, phrase: NounPhrase) -> Found | None:
     there = where[0].phrase
     if is_person(there, scope):
         person = to_person(there, scope) if text.word(start - 1).startswith("go") else None
-        thing = to_object(phrase, scope)
-        return ([Bring(object=thing, to=person)], where[1]) if person else None
+        found = [to_object(one, scope) for one in things or [phrase]]
+        return ([Bring(object=one, to=person) for one in found], where[1]) if person else None
     sentence.notes.verb = SaidVerb(at, at + 1, ("put",))
-    return _put(sentence, at, phrase, *where)
+    return _put(sentence, at, phrase, *where, things=things)
 
 
 def _passive(

@@ -3,8 +3,10 @@
 import re
 from collections.abc import Collection, Mapping
 from copy import copy
+from itertools import pairwise
 from typing import TypeVar
 
+from intents.english.words.all_over import all_over
 from intents.english.words.appositions import without_appositions
 from intents.english.words.asked_conditions import conditional_questions
 from intents.english.words.asking import plainly_asked
@@ -118,12 +120,14 @@ class Text:
         asks: It ends with a question mark.
         polite: "Please" was said, so something is asked for.
         pace: How fast things are to be done, as it was said; empty if nothing was.
+        all_over: All the home was spoken of, as in "how many cups are in the house?".
         manners: Whether they are to be done at once, without an end or later, as it was said.
     """
 
     def __init__(self, text: str, vocabulary: Vocabulary) -> None:
         """Tokenize, correct and drop fillers."""
-        self.index: NameIndex = index_of(vocabulary)
+        index = index_of(vocabulary)
+        self.index: NameIndex = index
         speller = speller_of(vocabulary)
         corrected: list[Token] = []
         tokens, self.corrections = spelled_out(
@@ -163,6 +167,7 @@ class Text:
         plain = singled_out(_without_fillers(ordered, self.index), self.index)
         plain = _unfinished(unrepeated(being_there(conditional_questions(plain, self.index))))
         plain = _colloquial(in_standard_words(plain, self.index))
+        plain, self.all_over = all_over(plain, self.index, lambda said: _in_message(said, index))
         self.tokens: list[Token] = uninverted(left_behind(plain))
         self.words: list[str] = [t.text for t in self.tokens]
         self._matches: dict[int, Match | None] = {}
@@ -415,6 +420,9 @@ def _points_there(words: list[str], at: int) -> bool:
     return asked and words[at + 1 : at + 2] in (["on"], ["in"], ["under"], ["at"], ["by"], ["over"])
 
 
+_CHECKS = frozenset((look, how) for look in ("check", "see", "look") for how in ("if", "whether"))
+
+
 def _remains(words: list[str], at: int) -> bool:
     """Whether "left" is what remains: what have we got *left*? Count what we have *left*."""
     if "if" in words[max(0, at - 7) : at] and "there" in words[max(0, at - 6) : at]:
@@ -424,9 +432,13 @@ def _remains(words: list[str], at: int) -> bool:
 
 
 def _adverb_end(words: list[str], at: int) -> int | None:
-    """Is the cup *still* on the table? But: stand still."""
-    asked = words[0] in ("is", "are", "do", "does", "what", "where", "how") and at + 1 < len(words)
-    return at + 1 if asked and words[at] in ADVERBS else None
+    """Is the cup *still* on the table? Check if it is *still* there. But: stand still."""
+    if words[at] not in ADVERBS or at + 1 >= len(words):
+        return None
+    asked = words[0] in ("is", "are", "do", "does", "what", "where", "how")
+    seen = words[at - 1] in ("is", "are") and not _TELLING.intersection(words[:at])
+    checked = seen and _CHECKS.intersection(pairwise(words[:at]))
+    return at + 1 if asked or checked else None
 
 
 def _filler_end(words: list[str], at: int) -> int | None:

@@ -171,6 +171,19 @@ def test_two_are_taken_into_two_hands(words):
     assert len({p.object_id for p in taken if isinstance(p, PickParams)}) == 2
 
 
+@pytest.mark.parametrize("said", ["count all the mugs", "how many mugs are in the whole house?"])
+def test_a_count_of_all_there_are_looks_over_every_room(said):
+    chest = m.Place(
+        id="chest", name="chest", X_WP=SE3((6.0, 2.0, 0.8)), size_m=(0.4, 0.8), room="hall"
+    )
+    world = _Kitchen()
+    world.map = msgspec.structs.replace(world.map, places=(*world.map.places, chest))
+    outcome = request(said, msgspec.structs.replace(WHERE, world=world))
+    assert isinstance(outcome, Understood)
+    look, _ = errands(outcome.task)
+    assert {"counter", "table", "upper_rack", "chest"} <= set(look.params.place_ids)
+
+
 @pytest.mark.parametrize("to", ["put {} on the table", "bring {} to the counter"])
 def test_of_several_what_is_there_already_stays(to):
     for part in parts(to.format("all mugs"), Each):

@@ -87,6 +87,19 @@ def test_a_thing_may_stand_where_a_little_stays_hidden_near_to_where_it_was(
     assert (report.failure.code if report.failure else "") == code
 
 
+@pytest.mark.parametrize("full", [False, True])
+def test_what_the_home_itself_hides_is_told_so(stage, monkeypatch, full):
+    """A board above the eyes: nobody is asked to clear it, unless something stands on it."""
+    monkeypatch.setattr("executive.skills.inspect.HIDDEN", 0.0)
+    corner, *others = next(p for p in stage.puppet.map().places if p.id == "counter").samples()
+    stage.puppet.hidden = tuple(corner.tolist())
+    if full:
+        stage.puppet.things["cup"].X_WO = SE3(tuple(others[-1]))
+    report = stage.run(InspectParams(place_ids=("counter",)))
+    assert report.failure.code == "place_not_seen"
+    assert ("looked" in report.failure.evidence) is not full
+
+
 def test_a_search_goes_on_where_another_skill_has_looked(stage):
     """What is known of the surfaces outlives the skill, the try and the job."""
     stage.puppet.blind = True

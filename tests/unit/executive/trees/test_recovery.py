@@ -83,6 +83,13 @@ def test_a_search_that_looked_everywhere_is_not_followed_by_another():
     assert rule.next(nowhere, Counter()) == ("ask", 1)
 
 
+def test_nobody_waits_or_asks_for_a_view_that_the_home_itself_hides():
+    rule = RULES["place_not_seen"]
+    assert rule.next(failure("place_not_seen", "hidden"), Counter()) == ("wait", 1)
+    above = failure("place_not_seen", "above the eyes", looked="from all sides")
+    assert rule.next(above, Counter()) is None
+
+
 def test_a_fallen_robot_gets_up_only_when_a_person_lets_it():
     rig = Rig({NavigateParams: [Script(code="fallen"), Script()]}).begin(WALK)
     rig.executive.attended = True
