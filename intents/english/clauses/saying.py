@@ -158,11 +158,17 @@ def _quotes(text: Text, at: int, scope: Scope) -> Found:
     return goals, end
 
 
+_FINDS_OUT = lexicon.words("check see look ask out know wonder remember")
+
+
 def _before_condition(text: Text, at: int, end: int, scope: Scope) -> int:
-    """Say dinner is ready *if Ada is in the kitchen*: what can be checked is a condition."""
+    """Say dinner is ready *if Ada is in the kitchen*: what can be checked is a condition.
+
+    Tell Leo to check *if it is there*: that is what he is to find out.
+    """
     for link in range(at + 1, end):
         start = text.phrase_end(IF, link)
-        if start is None:
+        if start is None or (text.word(link) == "if" and text.word(link - 1) in _FINDS_OUT):
             continue
         try:
             _, stop = condition(text, start, copy(scope))

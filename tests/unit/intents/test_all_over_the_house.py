@@ -116,5 +116,15 @@ def test_it_means_the_same(said: str, plainly: str) -> None:
     assert_means_the_same(said, plainly)
 
 
+@pytest.mark.parametrize("verb", ["check", "see", "find out"])
+def test_what_somebody_is_to_find_out_is_no_condition_of_telling_them(verb: str) -> None:
+    said = f"{verb} if the menu is on the bar"
+    outcome = heard(f"tell Olga to {said}")
+    assert isinstance(outcome, Goals), outcome
+    (goal,) = outcome.goals
+    assert isinstance(goal, Say)
+    assert goal.what == f"to {said}"
+
+
 def test_how_many_of_nothing_is_asked_back() -> None:
     assert not isinstance(parse("how many on the bar?", HOTEL), Goals)
