@@ -28,9 +28,9 @@ SPACING_M = 0.25
 CUT_M = 0.35
 """Distance of waypoints, and most that is cut off a corner [m]."""
 MORE_ROOM_M = 0.3
-"""Longest such line [m] where the body has room already and only more of it is wanted. Stepped along
-with the heading kept, it is followed less well than a way: 0.56 m of it led backwards and askew
-through a doorway that had just been passed, and a hand met the wall."""
+"""Longest such line [m] where the body has room already and only more of it is wanted. Stepped
+along with the heading kept, it is followed less well than a way: 0.56 m of it led backwards and
+askew through a doorway that had just been passed, and a hand met the wall."""
 START_OVERLAP_M = 0.03
 """Where the robot stands it may seem to overlap things by this much [m]."""
 LEAST = 0.9
