@@ -128,7 +128,7 @@ class Pick(ScriptedSkill[PickParams]):
         check_reachable(body, info, X_WO)
         plan = yield from self._plan(info)
         body.progress = 0.1
-        yield from approach(body, plan, what=info.name)
+        plan = yield from self._get_there(info, plan)
         self._stance = plan
         try:
             body.progress = 0.4
@@ -159,11 +159,32 @@ class Pick(ScriptedSkill[PickParams]):
             raise give_up("hands_full", f"no free hand for the {info.name}", held=names)
         return False
 
-    def _plan(self, info: ObjectInfo, *, attempt: int = 0) -> Script[PickPlan]:
-        """Ask for a grasp and a stance, with the hand that is free."""
+    def _get_there(self, info: ObjectInfo, plan: PickPlan) -> Script[PickPlan]:
+        """Walk up with the hand raised; where no way up is found for it, with the other one.
+
+        Sampling found none in all its checks, and asked again it mostly finds none again.
+        """
+        body = self.body
+        try:
+            yield from approach(body, plan, what=info.name)
+        except GaveUp as end:
+            free = body.context.holdings.free_sides()
+            others: list[Side] = [side for side in free if side != plan.side]
+            chosen = self.parameters.side is not None
+            if end.failure.code != "planner_timeout" or chosen or not others:
+                raise
+            plan = yield from self._plan(info, attempt=1, side=others[0])
+            yield from stow_arms(body)
+            yield from approach(body, plan, what=info.name)
+        return plan
+
+    def _plan(
+        self, info: ObjectInfo, *, attempt: int = 0, side: Side | None = None
+    ) -> Script[PickPlan]:
+        """Ask for a grasp and a stance, with the hand that is free, or a certain one."""
         self.body.phase = f"planning how to take the {info.name}"
         free = self.body.context.holdings.free_sides()
-        side = self.parameters.side or (free[0] if len(free) == 1 else None)
+        side = side or self.parameters.side or (free[0] if len(free) == 1 else None)
         request = PickRequest(
             object_id=info.id,
             around=surroundings(self.body),

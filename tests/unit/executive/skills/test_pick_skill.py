@@ -264,6 +264,19 @@ def test_out_of_reach_moves_the_base_twice_then_fails(stage):
     assert len({request.seed for request in picks}) == 3
 
 
+@pytest.mark.parametrize(("wanted", "code"), [(None, ""), ("right", "planner_timeout")])
+def test_where_no_way_up_is_found_for_one_hand_the_other_is_taken(stage, wanted, code):
+    arm = stage.planner._arm
+    stuck = failure("planner_timeout", "no free way for the right arm; counter is in the way")
+    stage.planner._arm = lambda r: (
+        stuck if r.side == "right" and not isinstance(r.goal, SE3) else arm(r)
+    )
+    report = stage.run(msgspec.structs.replace(CUP, side=wanted))
+    assert (report.failure.code if report.failure else "") == code
+    held = stage.context.holdings.find(CUP.object_id)
+    assert (held.side if held else None) == (None if wanted else "left")
+
+
 def test_after_moving_over_it_steps_back_from_where_it_stands(stage):
     pick, arm, plans = stage.planner._pick, stage.planner._arm, []
 
