@@ -70,6 +70,7 @@ _LIMITING = (
 _POINTING = lexicon.words("it him her them this that these those he she they there")
 _YOU = lexicon.words("you you're you've your yourself u ur ya ye yer y'all thou")
 _HOW = lexicon.words("how why when who")
+_PEOPLE = lexicon.PERSON_NOUNS | lexicon.GENDERS.keys() | lexicon.words("who nobody")
 
 
 class _Case(NamedTuple):
@@ -104,7 +105,7 @@ def needed(
     """
     case = _Case(text, index, before, both)
     doubts = _DOUBTS if least <= SURE else (*_DOUBTS, *_MORE_DOUBTS)
-    return max((one for doubt, one in doubts if doubt(case)), default=least)
+    return max((least, *(one for doubt, one in doubts if doubt(case))))
 
 
 def plain_words(text: str) -> list[str]:
@@ -288,6 +289,12 @@ def _are_taken_back(case: _Case, gone: Sequence[Name]) -> bool:
     )
 
 
+def _counts_nobody_said(case: _Case) -> bool:
+    """Whether people would be counted of whom nobody spoke: "how many on the bar?"."""
+    counts = any(isinstance(goal, Count) and goal.person for goal in each(case.goals))
+    return counts and _PEOPLE.isdisjoint(case.words)
+
+
 def _loses_count(case: _Case) -> bool:
     """Whether it is said how many of a thing are meant, and no goal says that."""
     words, told = case.words, numbers(case.goals)
@@ -305,6 +312,7 @@ def _loses_count(case: _Case) -> bool:
 _DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
     (_loses_name, NEVER),
     (_loses_count, NEVER),
+    (_counts_nobody_said, NEVER),
     (_loses_time, NEVER),
     (_leaves_out, NEVER),
     (_is_short, NEVER),

@@ -45,7 +45,7 @@ _PREPOSITIONS: dict[lexicon.Phrase, lexicon.Phrase] = {
     ("yem",): ("home",), ("gan",): ("go",), ("giz",): ("give", "us"), ("gis",): ("give", "us"),
     ("wey", "dey", "on"): ("that", "is", "on"),
     ("wey", "dey", "in"): ("that", "is", "in"), ("wey", "dey"): ("that", "is", "in"),
-    ("that", "there"): ("that",), ("this", "here"): ("this",), ("them", "there"): ("those",),
+    ("that", "there"): ("that",), ("this", "here"): ("this",),
     ("inquire", "of"): ("ask",), ("enquire", "of"): ("ask",), ("find", "out", "from"): ("ask",),
     ("check", "with"): ("ask",), ("unto",): ("to",), ("thou",): ("you",), ("thee",): ("you",),
     ("thy",): ("your",),
@@ -80,7 +80,8 @@ _SEEING = lexicon.words("see have find hold carry")
 
 def in_standard_words(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens with the words of the grammar in place of those of a dialect."""
-    tokens = _agreeing(_carried(_linked(_prepositions(_handled(tokens))), index), index)
+    tokens = _those(_linked(_prepositions(_handled(tokens))), index)
+    tokens = _agreeing(_carried(tokens, index), index)
     words = [t.text for t in tokens]
     for at, token in enumerate(tokens):
         owner, gives = _OWNERS.get(token.text, ("", _GIVES_ME))
@@ -103,6 +104,15 @@ def _handled(tokens: list[Token]) -> list[Token]:
         else token
         for last, token, after in zip(before, tokens, [*tokens[1:], Token("", "")], strict=False)
     ]
+
+
+def _those(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """*Them there* cups: those; but take *them there*, to that place."""
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 2, 0, -1):
+        if words[at - 1 : at + 1] == ["them", "there"] and _is_thing(words, at + 1, index):
+            tokens[at - 1 : at + 1] = [Token("those", tokens[at - 1].raw)]
+    return tokens
 
 
 def _linked(tokens: list[Token]) -> list[Token]:

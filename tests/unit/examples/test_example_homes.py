@@ -17,7 +17,6 @@ from sim.simulation import Simulation
 FOLDER = Path(__file__).parents[3] / "examples" / "homes"
 EXAMS = sorted(FOLDER.glob("*.tasks.yaml"))
 WAITING = {
-    "the blue mug and the red mug belong on the deck table, take them there please": "asked back",
     "how many apples have we got on board?": "a board is taken for one of a shelf, and asked for",
 }
 """Wishes as they were typed that are not understood yet, and how they end."""
@@ -28,8 +27,8 @@ def cases(request: pytest.FixtureRequest) -> tuple[Case, ...]:
     return exam.load(request.param, Settings(Simulation()))
 
 
-def test_each_home_has_ten_wishes_of_several_kinds(cases: tuple[Case, ...]):
-    assert len(cases) == 10
+def test_each_home_has_wishes_of_several_kinds(cases: tuple[Case, ...]):
+    assert len(cases) in (8, 10)
     assert len({case.kind for case in cases}) >= 8
     assert all(case.person_s > 0.0 for case in cases)
 

@@ -13,6 +13,8 @@ from hotel_words import assert_means_the_same
         ("where's me hammer", "where is my hammer"),
         ("put them scissors on the bar", "put those scissors on the bar"),
         ("fetch them peaches off the trolley", "fetch those peaches off the trolley"),
+        ("put them there scissors on the bar", "put those scissors on the bar"),
+        ("put the cap on the bar. take them there", "put the cap on the bar. put it there"),
         ("where've you put me hammer", "where is my hammer"),
         ("knock that desk lamp off for us", "switch the desk lamp off"),
         ("bring us the caps, the pair of them", "bring me two caps"),

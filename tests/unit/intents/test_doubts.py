@@ -72,5 +72,17 @@ def test_on_purpose_nothing_is_lost_that_limits_an_order(said: str, plain: str) 
     assert least(said, plain, asked_for=SURER) == NEVER
 
 
+def test_a_doubt_never_asks_for_less() -> None:
+    said, plain = "what are ye upto", "what are you doing"
+    assert least(said, plain) == QUITE_SURE
+    assert least(said, plain, asked_for=SURER) == SURER
+
+
+def test_people_are_counted_where_somebody_spoke_of_people() -> None:
+    plain = "count the people in the gallery"
+    assert least("reckon up how many there be in the gallery", plain) == NEVER
+    assert least("reckon up the folk there be in the gallery", plain) < NEVER
+
+
 def test_on_purpose_what_loses_nothing_has_to_be_surer() -> None:
     assert least("hoick us the flare hither", "bring the flare to me", asked_for=SURER) == SURER
