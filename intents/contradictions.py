@@ -15,6 +15,7 @@ from typing import NamedTuple
 from msgspec.structs import replace
 
 from intents.english.words import lexicon
+from intents.english.words.lexer import words_in
 from intents.english.words.names import NameIndex
 from intents.goals import (
     Answer,
@@ -35,7 +36,6 @@ from intents.goals import (
     to_builtins,
 )
 
-_WORDS = re.compile(r"[\w']+")
 _QUOTED = re.compile(r"[\"“«][^\"”»]*[\"”»]")
 _TAKES_BACK = re.compile(
     r"\b(?:(?:wait|actually|sorry|oh|ah|but|hang on)\W+)?(?:no|nah|naw|nope)\b(?!\s+(?:rush|hurry|"
@@ -180,7 +180,7 @@ def _whither(goal: _Moving) -> str:
 
 def _said(where: str, part: str) -> bool:
     """Whether a place or somebody is named in a part of a sentence; who speaks needs no name."""
-    words = set(_WORDS.findall(part))
+    words = set(words_in(part))
     return where == "operator" or not words.isdisjoint(where.lower().split())
 
 
@@ -204,7 +204,7 @@ def _lost_exception(plain: str, every: Sequence[Goal], index: NameIndex) -> Iter
     if words.isdisjoint(lexicon.ALL | {"everything"}) or "'except':" in str(to_builtins(every)):
         return
     for found in _WITHOUT.finditer(plain):
-        rest = _WORDS.findall(plain[found.end() :])
+        rest = words_in(plain[found.end() :])
         match = index.match(rest, 0) if rest else None
         if match is not None and match.of("object", "category"):
             yield f"{found.group()}{' '.join(rest[: match.end])}"

@@ -16,6 +16,7 @@ from intents.english.learnt.choice import Both, Name, lost
 from intents.english.learnt.plainness import plainness
 from intents.english.trouble import Idle
 from intents.english.words import lexicon
+from intents.english.words.lexer import words_in
 from intents.english.words.limits import (
     CALENDAR,
     CHOICES,
@@ -55,7 +56,6 @@ _TAKES_BACK = re.compile(
 )
 """A name ahead of one of these may have been taken back by one behind it."""
 _TITLE = re.compile(r"^(?:mr|mrs|ms|miss|dr|prof|professor|doctor|sir|madam|uncle|auntie)\.? ")
-_WORDS = re.compile(r"[\w']+")
 _CLAUSES = re.compile(r"[,.;:!?…—–]+|\b(?:so|and|then|but)\b")
 _MEANT = re.compile(r"\bI meant? (?:the|a|an|my|your|our|his|her|this|that)\s+\w", re.IGNORECASE)
 """I mean *the cellar*: what takes another's place, be it known or not."""
@@ -87,7 +87,7 @@ class _Case(NamedTuple):
 
     @property
     def words(self) -> list[str]:
-        return plain_words(self.text)
+        return words_in(self.text)
 
 
 def needed(
@@ -106,11 +106,6 @@ def needed(
     case = _Case(text, index, before, both)
     doubts = _DOUBTS if least <= SURE else (*_DOUBTS, *_MORE_DOUBTS)
     return max((least, *(one for doubt, one in doubts if doubt(case))))
-
-
-def plain_words(text: str) -> list[str]:
-    """The words of a text in lower case, without signs."""
-    return _WORDS.findall(text.lower().replace("’", "'"))
 
 
 def is_by_the_way(goal: Goal) -> bool:
@@ -147,7 +142,7 @@ def _has_no_request(case: _Case) -> bool:
 
 def _ordered(text: str) -> Iterator[bool]:
     """For each clause behind the first, whether it begins with an order: "..., *close it*"."""
-    _, *others = (plain_words(clause) for clause in _CLAUSES.split(text.lower()))
+    _, *others = (words_in(clause) for clause in _CLAUSES.split(text.lower()))
     for words in filter(None, others):
         follows = words[1:2] != [] and words[1] in lexicon.DETERMINERS | lexicon.PRONOUNS
         yield follows and base_form(words[0]) == words[0] and bool(verbs_at(words, 0))
@@ -166,7 +161,7 @@ def _only_asks(case: _Case) -> bool:
 
 def _you_do(text: str) -> Iterator[bool]:
     """For each clause, whether it begins as learners ask: "my hands are wet, *you open* it?"."""
-    for words in map(plain_words, _CLAUSES.split(text.lower())):
+    for words in map(words_in, _CLAUSES.split(text.lower())):
         verb = words[1] if words[:1] == ["you"] and words[1:] else ""
         yield bool(verb) and base_form(verb) == verb and bool(verbs_at(words, 1))
 

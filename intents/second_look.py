@@ -29,6 +29,7 @@ from intents.english.trouble import (
     Unread,
 )
 from intents.english.words import lexicon
+from intents.english.words.lexer import words_in
 from intents.english.words.names import NameIndex
 from intents.goals import Answer, Count, Find, Goal, If, LookAt, Report, Tell, each
 from intents.outcomes import YES_OR_NO, Goals, Outcome, Question, Refusal
@@ -54,7 +55,6 @@ _ASKS = lexicon.words("please could can would will shall may might let fancy")
 """With one of these a question may ask for something to be done."""
 LOOKING = (Find, Count, Tell, Report, Answer, LookAt)
 """What answers a question."""
-_WORDS = re.compile(r"[\w']+")
 LONGEST = 60
 """Longer than that nobody talks beside an order that the grammar reads."""
 _OWN_DOING = re.compile(
@@ -165,7 +165,7 @@ def second_look(
 
 def only_asks(text: str, goals: Sequence[Goal]) -> bool:
     """Whether a question that asks for nothing to be done was taken for an order."""
-    words = _WORDS.findall(text.lower().replace("’", "'"))
+    words = words_in(text)
     asks = text.rstrip(" \"'”)").endswith("?") and _ASKS.isdisjoint(words)
     return asks and not all(isinstance(goal, LOOKING) for goal in each(goals))
 

@@ -17,7 +17,6 @@ from intents.doubts import (
     is_by_the_way,
     needed,
     offers,
-    plain_words,
 )
 from intents.english.learnt.choice import SILENT, Both, Kind, Name, Side, alone, choice
 from intents.english.learnt.field import LEARNT, Fields
@@ -36,6 +35,7 @@ from intents.english.trouble import (
     Unpromised,
 )
 from intents.english.words import lexicon
+from intents.english.words.lexer import words_in
 from intents.english.words.limits import CONDITIONS
 from intents.english.words.names import NameIndex
 from intents.goals import (
@@ -207,7 +207,7 @@ def _is_kept(text: str, before: Attempt) -> bool:
 
 def _is_plain(text: str, names: Sequence[Name], before: Attempt, *, follows: bool) -> bool:
     """Whether an order that the grammar read is plainly put, or refers to what was said before."""
-    words, said = plain_words(text), [name.said for name in names]
+    words, said = words_in(text), [name.said for name in names]
     beside = len(before.goals) > 1 and any(map(is_by_the_way, before.goals))
     plain = is_plainly_put(_GREETING.sub("", text), said, strange=_STRANGE) and not beside
     refers = follows and not _REFERS.isdisjoint(words)
@@ -237,7 +237,7 @@ def _is_on_purpose(text: str, before: Attempt) -> bool:
     """
     if isinstance(before.error, Unasked | Offered | Unpromised | Doubtful):
         return True
-    if type(before.error) is NotUnderstood and not CONDITIONS.isdisjoint(plain_words(text)):
+    if type(before.error) is NotUnderstood and not CONDITIONS.isdisjoint(words_in(text)):
         return True
     question = before.outcome if isinstance(before.outcome, Question) else None
     asks_which = question and (

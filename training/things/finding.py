@@ -24,7 +24,7 @@ CUT = (160, 192)
 """Rows and columns of a picture that are learnt from at a time."""
 LEAST_PX = 12
 """Visible less, a thing need not be found, and may be."""
-OFFSET = np.array([1.0, -1.0, 1.0, 1.0], dtype=np.float32)
+MIRRORED = np.array([1.0, -1.0, 1.0, 1.0], dtype=np.float32)
 """What becomes of an answer in a mirror."""
 
 
@@ -121,7 +121,7 @@ def varied(given: Pictures, chosen: Any, key: Any) -> dict[str, Any]:
     image, wanted = cut(given.images, 1), cut(given.wanted, HALF)
     turned = jax.random.bernoulli(keys[2], 0.5, (count, 1, 1, 1))
     image = jnp.where(turned, image[:, :, ::-1], image)
-    wanted = jnp.where(turned, wanted[:, :, ::-1] * OFFSET, wanted)
+    wanted = jnp.where(turned, wanted[:, :, ::-1] * MIRRORED, wanted)
     gain = jnp.exp(0.12 * jax.random.normal(keys[3], (count, 1, 1, 3)))
     higher_m = 0.05 * jax.random.normal(keys[4], (count, 1, 1))
     image = image.at[..., :3].set((image[..., :3] + 0.5) * gain - 0.5)

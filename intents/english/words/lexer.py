@@ -119,6 +119,14 @@ _ENDINGS = (("n't", "not"), ("'re", "are"), ("'ll", "will"), ("'ve", "have"), ("
             ("'m", "am"))  # fmt: skip
 
 
+_SAID = re.compile(r"[\w']+")
+
+
+def words_in(text: str) -> list[str]:
+    """The words of a text as they were said, in lower case, without signs."""
+    return _SAID.findall(text.lower().replace("’", "'"))
+
+
 def tokenize(text: str) -> list[Token]:
     """Tokens of a text; every string is accepted, signs that mean nothing are dropped."""
     text = unmixed(seen(text)).translate(_QUOTES)

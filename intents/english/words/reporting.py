@@ -6,6 +6,7 @@ Who speaks may say again what they want ("I said", "as I told you"): that is no 
 import re
 
 from intents.english.words import lexicon
+from intents.english.words.lexer import words_in
 
 _SAID = lexicon.words(
     "said says saying told tells telling asked asks ordered orders cried cries shouted shouts "
@@ -19,7 +20,6 @@ _SAID_TO = lexicon.words(
 _OWN_WORDS = lexicon.words("i we i've we've i'd i'm you")
 _REACH = 2
 _CLAUSES = re.compile(r"[,:;.!?—–]+")
-_WORDS = re.compile(r"[\w']+")
 
 
 def reports(words: list[str]) -> bool:
@@ -34,4 +34,4 @@ def reports(words: list[str]) -> bool:
 def is_reported(text: str) -> bool:
     """Whether a sentence holds what somebody else said, set off by a sign."""
     clauses = _CLAUSES.split(text.lower().replace("’", "'"))
-    return any(reports(_WORDS.findall(clause)) for clause in clauses[:-1])
+    return any(reports(words_in(clause)) for clause in clauses[:-1])
