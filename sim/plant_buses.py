@@ -17,7 +17,8 @@ from robot.drivers.motors.can.ports import socket_path
 from robot.drivers.motors.dynamixel.emulated import terminal_path
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
 from robot.drivers.motors.mounting import Mounted
-from sim.devices.damiao import Damiao
+from sim.devices.can_motor import CanMotor
+from sim.devices.can_motors import motor_on
 from sim.devices.dynamixel import Servo
 from sim.devices.joint_shafts import JointShafts
 from sim.devices.serial_line import Line
@@ -32,7 +33,6 @@ THINKS_S = 0.0005
 """So long after a period began commands are on the wire at most; beyond it simulated time waits for
 the controller, as it does with simulated motors: a slow machine is no slow bus."""
 GATHER_S = 0.00005
-ENABLED = 1
 BIN_S, BINS = 0.0001, 100
 
 
@@ -90,7 +90,7 @@ class PlantBuses(Closing):
         self._serial = self._on_ports(servos, folder)
 
     def _on_can(self, joints: JointMap | None, folder: Path) -> CanServer:
-        self.motors: list[Damiao] = []
+        self.motors: list[CanMotor] = []
         self._motor_places: list[int] = []
         buses = {} if joints is None else joints.buses
         wires = {
@@ -98,12 +98,8 @@ class PlantBuses(Closing):
             for name, bus in buses.items()
         }
         for name, joint in ({} if joints is None else joints.joints).items():
-            sold = joint.expected
-            motor = Damiao(
-                wires[joint.bus], self._body.shafts[name], joint.id, joint.answers_as,
-                sold.position_rad, sold.velocity_rad_s, sold.torque_nm, heat_k_s=0.0,
-            )  # fmt: skip
-            self.motors.append(motor)
+            shaft = self._body.shafts[name]
+            self.motors.append(motor_on(joint, wires[joint.bus], shaft, heat_k_s=0.0))
             self._motor_places.append(self._places[name])
         paths = [socket_path(folder, index) for index in range(len(wires))]
         return CanServer(list(zip(paths, wires.values(), strict=True)), self.motors, self._time)
@@ -151,7 +147,7 @@ class PlantBuses(Closing):
 
     def _hear(self, patience_s: float) -> None:
         """Take what was sent; from motors that are enabled on, all of it is waited for."""
-        wanted = sum(motor.status == ENABLED for motor in self.motors)
+        wanted = sum(motor.is_on for motor in self.motors)
         talks = {
             number
             for number, line in enumerate(self._lines)

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import zip_longest
+from typing import NamedTuple
 
 import msgspec
 
 from robot.bringup.motor_family import MapDriver
 from robot.bringup.motor_reports import Reading, Seen
 from robot.clock import Clock
-from robot.drivers.motors.can.interview import Answers, exchange, interview, read_registers
-from robot.drivers.motors.can.joint_map import SOCKETCAN, Bus, JointMap, JointMotor
-from robot.drivers.motors.can.mit11 import (
-    MODE,
-    OWN_ID,
-    SUPPLY,
-    VERSION,
-    read_register,
-    register_reply,
+from robot.drivers.motors.can.families import FAMILIES, Asking, Family
+from robot.drivers.motors.can.interview import (
+    Answers,
+    by_settings,
+    exchange,
+    interview,
+    read_registers,
 )
+from robot.drivers.motors.can.joint_map import SOCKETCAN, Bus, JointMap, JointMotor
 from robot.drivers.motors.can.ports import Heard, Ports, PythonCan, check_buses
 from robot.drivers.motors.can.verdicts import verdicts
 from robot.drivers.motors.findings import Finding
@@ -61,21 +61,41 @@ def findings(ports: Ports, clock: Clock, joints: JointMap) -> list[Finding]:
 
 
 def scan(ports: Ports, clock: Clock, joints: JointMap, up_to: int) -> list[Seen]:
-    """Ask every identifier of every bus who it is; of Damiao's motors."""
-    buses = joints.buses
-    named = {(one.bus, one.id): name for name, one in joints.joints.items()}
+    """Ask every identifier of every bus who it is, as each family that can be asked is."""
+    seen: list[Seen] = []
+    for family in dict.fromkeys(FAMILIES.values()):
+        if family.asking is not None:
+            last = min(up_to, family.most_id)
+            seen += _scan(ports, clock, joints, _Asked(family, family.asking), last)
+    return sorted(seen, key=lambda one: (one.bus, one.id))
+
+
+class _Asked(NamedTuple):
+    """A family that can be asked, and how."""
+
+    family: Family
+    asking: Asking
+
+
+def _scan(ports: Ports, clock: Clock, joints: JointMap, asked: _Asked, up_to: int) -> list[Seen]:
+    """Of one family."""
+    buses, settings = joints.buses, asked.asking.settings
+    mine = {name: one for name, one in joints.joints.items() if one.family is asked.family}
+    named = {(one.bus, one.id): name for name, one in mine.items()}
     heard: dict[tuple[str, int], list[int]] = {}
     for first in range(1, up_to + 1, AT_ONCE):
         numbers = range(first, min(first + AT_ONCE, up_to + 1))
-        _who(ports, clock, [(bus, number) for bus in buses for number in numbers], heard)
+        _who(ports, clock, asked, [(bus, number) for bus in buses for number in numbers], heard)
     found = sorted(heard)
     for one_a_bus in _turns(found):  # two that say the same thing at once are heard as one
         again: dict[tuple[str, int], list[int]] = {}
-        _who(ports, clock, one_a_bus, again)
+        _who(ports, clock, asked, one_a_bus, again)
         heard.update(again)
     values: dict[tuple[str, int, int], float] = {}
-    for register in (21, 22, 23, MODE, VERSION):
-        _values(ports, clock, found, register, values)
+    ranges = settings.ranges or ()
+    for register in (*ranges, settings.mode, settings.version):
+        if register is not None:
+            values |= _values(ports, clock, asked.asking, found, register)
     return [
         Seen(
             bus=bus,
@@ -83,9 +103,9 @@ def scan(ports: Ports, clock: Clock, joints: JointMap, up_to: int) -> list[Seen]
             reply_id=heard[bus, number][0],
             replies=len(heard[bus, number]),
             joint=named.get((bus, number), ""),
-            mode=_whole(values.get((bus, number, MODE))),
-            version=_whole(values.get((bus, number, VERSION))),
-            ranges=_ranges([values.get((bus, number, register)) for register in (21, 22, 23)]),
+            mode=_whole(values.get((bus, number, settings.mode))),
+            version=_whole(values.get((bus, number, settings.version or 0))),
+            ranges=_ranges([values.get((bus, number, register)) for register in ranges]),
         )
         for bus, number in found
     ]
@@ -94,15 +114,19 @@ def scan(ports: Ports, clock: Clock, joints: JointMap, up_to: int) -> list[Seen]
 def _who(
     ports: Ports,
     clock: Clock,
-    asked: list[tuple[str, int]],
+    asked: _Asked,
+    numbers: list[tuple[str, int]],
     heard: dict[tuple[str, int], list[int]],
 ) -> None:
-    def take(one: Heard) -> None:
-        reply = None if one.frame is None else register_reply(one.frame.data)
-        if reply is not None and one.frame is not None and reply.register == OWN_ID:
-            heard.setdefault((one.bus, reply.motor_id), []).append(one.frame.id)
+    asking, register = asked.asking, asked.asking.settings.own_id
 
-    exchange(ports, clock, [(bus, read_register(number, OWN_ID)) for bus, number in asked], take)
+    def take(one: Heard) -> None:
+        reply = None if one.frame is None else asking.reply(one.frame)
+        if reply is not None and one.frame is not None and reply.register == register:
+            under = reply.motor_id if asked.family.is_extended else one.frame.id
+            heard.setdefault((one.bus, reply.motor_id), []).append(under)
+
+    exchange(ports, clock, [(bus, asking.read(number, register)) for bus, number in numbers], take)
 
 
 def _turns(found: list[tuple[str, int]]) -> list[list[tuple[str, int]]]:
@@ -114,18 +138,18 @@ def _turns(found: list[tuple[str, int]]) -> list[list[tuple[str, int]]]:
 
 
 def _values(
-    ports: Ports,
-    clock: Clock,
-    asked: list[tuple[str, int]],
-    register: int,
-    values: dict[tuple[str, int, int], float],
-) -> None:
+    ports: Ports, clock: Clock, asking: Asking, found: list[tuple[str, int]], register: int
+) -> dict[tuple[str, int, int], float]:
+    """What a register of each holds, by bus, identifier and register."""
+    values: dict[tuple[str, int, int], float] = {}
+
     def take(one: Heard) -> None:
-        reply = None if one.frame is None else register_reply(one.frame.data)
+        reply = None if one.frame is None else asking.reply(one.frame)
         if reply is not None:
             values[one.bus, reply.motor_id, reply.register] = reply.value
 
-    exchange(ports, clock, [(bus, read_register(number, register)) for bus, number in asked], take)
+    exchange(ports, clock, [(bus, asking.read(number, register)) for bus, number in found], take)
+    return values
 
 
 def _whole(value: float | None) -> int | None:
@@ -144,15 +168,16 @@ def readings(ports: Ports, clock: Clock, joints: JointMap) -> list[Reading]:
     """What every motor says now, each asked once."""
     answers = interview(ports, clock, joints)
     asked = {name: one for name, one in joints.joints.items() if answers[name].registers}
-    if asked:
-        read_registers(ports, clock, asked, answers, SUPPLY)
+    for settings, some in by_settings(asked):
+        read_registers(ports, clock, some, answers, settings.supply)
     return [_reading(name, joints, answers[name]) for name in joints.joints]
 
 
 def _reading(name: str, joints: JointMap, answer: Answers) -> Reading:
     one, told = joints.joints[name], answer.feedback
+    asking = one.family.asking
     if told is None:
-        status = "silent" if one.family.asking else "cannot be asked"
+        status = "silent" if asking else "cannot be asked"
         return Reading(joint=name, bus=one.bus, id=one.id, model=one.model, status=status)
     return Reading(
         joint=name,
@@ -165,7 +190,7 @@ def _reading(name: str, joints: JointMap, answer: Answers) -> Reading:
         tau_nm=one.sign * told.tau_nm * one.gear,
         winding_c=told.winding_c,
         driver_c=told.driver_c,
-        supply_v=answer.registers.get(SUPPLY),
+        supply_v=None if asking is None else answer.registers.get(asking.settings.supply),
     )
 
 

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 from typing import cast
 
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
+from robot.drivers.motors.can.models import MODELS
 from robot.errors import ConfigError, Problem
-from sim.devices.damiao import FLAWS, Damiao, Flaw
+from sim.devices.can_motor import FLAWS, CanMotor, Flaw
+from sim.devices.can_motors import EMULATED, motor_on
 from sim.devices.flaws import unknown
 from sim.devices.shaft import FreeShaft
 from sim.devices.wire import Wire
@@ -28,11 +30,11 @@ class Bench:
     """
 
     wires: Mapping[str, Wire]
-    motors: Mapping[str, Damiao]
-    others: tuple[Damiao, ...] = ()
+    motors: Mapping[str, CanMotor]
+    others: tuple[CanMotor, ...] = ()
 
     @property
-    def devices(self) -> tuple[Damiao, ...]:
+    def devices(self) -> tuple[CanMotor, ...]:
         """Whose time goes by."""
         return (*self.motors.values(), *self.others)
 
@@ -66,8 +68,8 @@ def build(
     _check(wanted, flaws)
     buses = wanted.buses.items()
     wires = {name: Wire(bitrate_hz=bus.bitrate_hz, now_s=now_s) for name, bus in buses}
-    motors: dict[str, Damiao] = {}
-    others: list[Damiao] = []
+    motors: dict[str, CanMotor] = {}
+    others: list[CanMotor] = []
     swing_rad_s = 0.0 if is_still else SWING_RAD_S
     for name, joint in wanted.joints.items():
         motors[name] = _motor(joint, wires[joint.bus], swing_rad_s)
@@ -86,22 +88,18 @@ def _motor(
     *,
     ahead_rad: float = 0.0,
     later_s: float = 0.0,
-) -> Damiao:
+) -> CanMotor:
     middle_rad = joint.motor_rad(0.5 * (joint.lower_rad + joint.upper_rad))
     shaft = FreeShaft(q_rad=middle_rad + ahead_rad, spring_nm_rad=0.3)
     shaft.qd_rad_s = swing_rad_s
-    sold = joint.expected
-    return Damiao(
-        wire, shaft, joint.id, joint.answers_as, sold.position_rad, sold.velocity_rad_s,
-        sold.torque_nm, later_s=later_s,
-    )  # fmt: skip
+    return motor_on(joint, wire, shaft, later_s=later_s)
 
 
 def _check(wanted: JointMap, flaws: Mapping[str, str]) -> None:
     problems = unknown(flaws, joints=wanted.joints, known=FLAWS)
     for name, joint in wanted.joints.items():
-        if joint.family.asking is None:
+        if MODELS[joint.model].family not in EMULATED:
             text = f"{name}: a {joint.model} is not emulated"
-            problems.append(Problem(text, wanted.file, suggestion="Damiao's are"))
+            problems.append(Problem(text, wanted.file, suggestion=f"{', '.join(EMULATED)} are"))
     if problems:
         raise ConfigError(problems)

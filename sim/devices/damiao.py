@@ -6,101 +6,41 @@ Written like the C of the manual (whole steps are cut off, not rounded), apart f
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass, field
-from typing import Literal, get_args
 
-from sim.devices.shaft import LET_GO, Order, Shaft
-from sim.devices.wire import CanFrame, Wire
+from sim.devices.can_motor import SAME_S, CanMotor, Flaw
+from sim.devices.shaft import LET_GO, Order
+from sim.devices.wire import CanFrame
 
-AMBIENT_C = 25.0
-ANSWERS_AFTER_S = 40e-6
-SAME_S = 1e-9
-"""Sums of steps are not exact."""
 WATCHDOG_UNIT_S = 50e-6
 DRIVER_TRIPS_C = 120.0
 KP_LIMIT, KD_LIMIT = 500.0, 5.0
 
-Flaw = Literal[
-    "silent", "loses_replies", "short_frames", "slow_speed", "wrong_range", "no_watchdog",
-    "hot", "low_volts", "over_current", "wrong_mode", "twin",
-]  # fmt: skip
-"""What can be wrong from the start, by name."""
-FLAWS: tuple[Flaw, ...] = get_args(Flaw)
 
-
-@dataclass
-class Trouble:
-    """What goes wrong with one motor.
-
-    Attributes:
-        silent: it never answers.
-        loses: so many of its next replies do not go out.
-        short: its replies lack their last two bytes.
-        speed_scale: it reports its speed times this.
-        status: a status code that it falls into, None of its own accord.
-    """
-
-    silent: bool = False
-    loses: int = 0
-    short: bool = False
-    speed_scale: float = 1.0
-    status: int | None = None
-
-
-@dataclass
-class Damiao:
-    """One motor on a wire.
-
-    Attributes:
-        wire, shaft: what it is plugged into, and what it turns.
-        motor_id, reply_id: whom it listens for, and as whom it answers.
-        position_rad, velocity_rad_s, torque_nm: registers 21 to 23 as it is sold.
-        later_s: by how much later it answers than others do.
-        trouble: what is wrong with it.
-        winding_c, driver_c, volts: what it measures.
-        zero_rad: its shaft's angle where it says 0.
-    """
-
-    wire: Wire
-    shaft: Shaft
-    motor_id: int
-    reply_id: int
-    position_rad: float
-    velocity_rad_s: float
-    torque_nm: float
-    later_s: float = 0.0
-    trouble: Trouble = field(default_factory=Trouble)
-    winding_c: float = AMBIENT_C
-    driver_c: float = AMBIENT_C
-    volts: float = 24.0
-    heat_k_s: float = 4.0
-    zero_rad: float = 0.0
+class Damiao(CanMotor):
+    """One motor on a wire, which answers under an identifier of its own."""
 
     def __post_init__(self) -> None:
-        """Switch on: disabled, watchdog off, as delivered."""
-        self.status = 0
-        self.tau_nm = 0.0
+        """Switch on."""
+        super().__post_init__()
         self.registers: dict[int, float] = {
             0: 15.0, 2: 100.0, 7: self.reply_id, 8: self.motor_id, 9: 0, 10: 1, 13: 0, 14: 5014,
             15: 0, 20: 10.0, 21: self.position_rad, 22: self.velocity_rad_s, 23: self.torque_nm,
             29: 32.0, 35: 4, 36: 0,
         }  # fmt: skip
-        self._ordered, self._last = LET_GO, b""
-        self._heard_s = self._lived_s = self.wire.now_s
-        self._node = self.wire.attach(self.hear)
         self._node.wants = frozenset((self.motor_id, 0x7FF))
 
+    @property
+    def is_on(self) -> bool:
+        """Whether it gives torque."""
+        return self.status == 1
+
+    @property
+    def _most_nm(self) -> float:
+        return self.registers[23]
+
     def suffer(self, flaw: Flaw) -> None:
-        """Have something wrong; what `twin` means is up to who builds the bus."""
+        """Have something wrong."""
         match flaw:
-            case "silent":
-                self.trouble.silent = True
-            case "loses_replies":
-                self.trouble.loses = 1_000_000_000
-            case "short_frames":
-                self.trouble.short = True
-            case "slow_speed":
-                self.trouble.speed_scale = 0.5
             case "wrong_range":
                 self.registers[21] *= 0.5
             case "no_watchdog":
@@ -113,8 +53,8 @@ class Damiao:
                 self.volts = self.registers[0] - 1.0
             case "over_current":
                 self.trouble.status = 0xA
-            case "twin":
-                pass
+            case _:
+                super().suffer(flaw)
 
     # --- the wire ----------------------------------------------------------------------------
 
@@ -133,7 +73,7 @@ class Damiao:
             self._heard_s = now_s
             if data != self._last:
                 self._obey(data)
-            self._answer(self._feedback(), now_s)
+            self._reply(self._feedback(), now_s)
 
     def _obey(self, data: bytes) -> None:
         registers = self.registers
@@ -160,9 +100,9 @@ class Damiao:
     def _of_registers(self, data: bytes, now_s: float) -> None:
         what, number = data[2], data[3]
         if what == 0xCC:
-            self._answer(self._feedback(), now_s)
+            self._reply(self._feedback(), now_s)
         elif what == 0xAA:
-            self._answer(data[:4] + bytes(4), now_s)
+            self._reply(data[:4] + bytes(4), now_s)
         elif what in (0x33, 0x55):
             if what == 0x55 and number in (0, 2, 7, 8, 9, 10, 21, 22, 23, 29, 35):
                 whole = number in (7, 8, 9, 10, 35)
@@ -175,15 +115,11 @@ class Damiao:
             whole = number in (7, 8, 9, 10, 13, 14, 15, 16, 35, 36)
             packed = struct.pack("<I", int(value)) if whole else struct.pack("<f", value)
             own = int(self.registers[8])
-            self._answer(bytes((own & 0xFF, own >> 8, what, number)) + packed, now_s)
+            self._reply(bytes((own & 0xFF, own >> 8, what, number)) + packed, now_s)
 
     def _register(self, number: int) -> float:
         measured = {60: self.volts, 61: self.driver_c, 62: self.winding_c, 80: self._q_rad}
         return measured.get(number, self.registers.get(number, 0.0))
-
-    @property
-    def _q_rad(self) -> float:
-        return self.shaft.q_rad - self.zero_rad
 
     def _feedback(self) -> bytes:
         """Position in 16 bits, speed and torque in 12, each from minus to plus of its register."""
@@ -203,32 +139,12 @@ class Damiao:
             )
         )  # fmt: skip
 
-    def _answer(self, data: bytes, now_s: float) -> None:
-        if self.trouble.silent:
-            return
-        if self.trouble.loses:
-            self.trouble.loses -= 1
-            return
-        data = data[:6] if self.trouble.short else data
-        frame = CanFrame(int(self.registers[7]), data)
-        self._node.send(frame, now_s + ANSWERS_AFTER_S + self.later_s)
+    def _reply(self, data: bytes, now_s: float) -> None:
+        self._answer(CanFrame(int(self.registers[7]), data), now_s)
 
     # --- the firmware's loop -----------------------------------------------------------------
 
-    def live(self, until_s: float) -> None:
-        """Let time go by up to a moment, in whole steps."""
-        span_s = self.shaft.step_s
-        while self._lived_s + span_s <= until_s + SAME_S:
-            self._lived_s += span_s
-            self._watch()
-            order = self._ordered if self.status == 1 else LET_GO
-            self.tau_nm = self.shaft.turn(order, self.registers[23], span_s)
-            load = abs(self.tau_nm) / self.registers[23]
-            cooling = 0.02 * (self.winding_c - AMBIENT_C)
-            self.winding_c += span_s * (self.heat_k_s * load * load - cooling)
-
     def _watch(self) -> None:
-        """Fall into a fault; also a disabled motor tells of heat and volts."""
         found = self.trouble.status
         timeout_s = self.registers.get(9, 0) * WATCHDOG_UNIT_S
         if self.volts < self.registers[0]:

@@ -14,7 +14,8 @@ from robot.drivers.motors.can.joint_map import Bus, JointMap, JointMotor
 from robot.model.description import RobotDescription
 from robot.se3 import Array
 from sim.devices.bench import Bench, build
-from sim.devices.damiao import Damiao, Flaw
+from sim.devices.can_motor import Flaw
+from sim.devices.damiao import Damiao
 from sim.devices.direct import DirectPorts
 from tests.fakes.motor_rig import MotorRig, felt, lines_of_its_own
 
@@ -36,14 +37,14 @@ def arm(folder: Path, text: str = ARM) -> JointMap:
     return joint_map.load(path)
 
 
-def limbs(buses: int, joints: int, *, rate_hz: int = 500) -> JointMap:
+def limbs(buses: int, joints: int, *, rate_hz: int = 500, model: str = "DM8009") -> JointMap:
     """So many buses with so many joints each."""
     return JointMap(
         rate_hz=rate_hz,
         buses={f"bus{b}": Bus(channel=f"can{b}") for b in range(buses)},
         joints={
             f"joint{b}_{j}": JointMotor(
-                bus=f"bus{b}", model="DM8009", id=j + 1, lower_rad=-2.0, upper_rad=2.0,
+                bus=f"bus{b}", model=model, id=j + 1, lower_rad=-2.0, upper_rad=2.0,
                 velocity_limit_rad_s=20.0, torque_limit_nm=40.0,
             )
             for b in range(buses)
@@ -77,8 +78,10 @@ class Rig(MotorRig):
         return CanMotors(self.joints, self.clock, ports=ports)
 
     def motor(self, name: str) -> Damiao:
-        """The emulated motor of a joint."""
-        return self.bench.motors[name]
+        """The emulated Damiao of a joint."""
+        found = self.bench.motors[name]
+        assert isinstance(found, Damiao)
+        return found
 
 
 def can_map(robot: RobotDescription, *, a_bus: int = 5) -> JointMap:

@@ -33,7 +33,7 @@ def scan(options: Scan) -> None:
 
       humanoid motors scan --map robot/model/juno/dynamixel.yaml --emulated
 
-    Damiao's motors and Dynamixel servos are found. Exit status 1 where nobody answers, or two
+    Damiao's and RobStride's motors and Dynamixel servos are found. Exit status 1 where nobody answers, or two
     answer as one.
     """
     from executive.frontends.motors import commands

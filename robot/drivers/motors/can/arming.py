@@ -8,9 +8,9 @@ from robot.clock import Clock
 from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.interview import WAITS_S, Answers, exchange, read_registers
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
-from robot.drivers.motors.can.mit11 import ENABLED, Ranges, Target
 from robot.drivers.motors.can.ports import Heard, Ports
-from robot.drivers.motors.can.replies import feedback_of
+from robot.drivers.motors.can.replies import feedback_of, senders
+from robot.drivers.motors.can.values import ENABLED, Ranges, Target
 from robot.errors import DriverError
 
 DAMPING_NM_S = 2.0
@@ -48,7 +48,7 @@ def leave_damping(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ran
     """Let every motor damp, and switch its watchdog off: it would let the joint go."""
     frames: list[tuple[str, Frame]] = []
     for one, most in zip(joints.joints.values(), ranges, strict=True):
-        kd = min(one.family.kd_max, DAMPING_NM_S / (one.gear * one.gear))
+        kd = min(most.kd, DAMPING_NM_S / (one.gear * one.gear))
         frames.append((one.bus, one.family.command(one.id, most, Target(0.0, 0.0, 0.0, kd, 0.0))))
     exchange(ports, clock, frames, lambda _: None)
     _set_watchdogs(ports, clock, joints, 0.0)
@@ -86,7 +86,8 @@ def _set_watchdogs(ports: Ports, clock: Clock, joints: JointMap, timeout_s: floa
         exchange(ports, clock, watchdogs(few, timeout_s), lambda _: None, wait_s=wait_s)
         answers = {name: Answers() for name in missing}
         for number in {_watchdog(one) for one in missing.values()}:
-            read_registers(ports, clock, missing, answers, number)
+            having = {name: one for name, one in missing.items() if _watchdog(one) == number}
+            read_registers(ports, clock, having, answers, number)
         missing = {
             name: one
             for name, one in missing.items()
@@ -128,18 +129,13 @@ def _told_by(
     wait_s: float,
 ) -> dict[str, int]:
     """Send frames, and hear for a while which status each joint's motor tells."""
-    by_reply = {
-        (one.bus, one.answers_as): (name, most)
-        for (name, one), most in zip(joints.joints.items(), ranges, strict=True)
-    }
-    status: dict[str, int] = {}
+    most = dict(zip(joints.joints, ranges, strict=True))
+    sender, status = senders(joints.joints), dict[str, int]()
 
     def take(heard: Heard) -> None:
-        found = None if heard.frame is None else by_reply.get((heard.bus, heard.frame.id))
-        if found is None or heard.frame is None:
+        if heard.frame is None or not (name := sender(heard)):
             return
-        name, most = found
-        told = feedback_of(joints.joints[name], heard.frame.data, most)
+        told = feedback_of(joints.joints[name], heard.frame, most[name])
         if told is not None:
             status[name] = told.status
 

@@ -14,14 +14,15 @@ from robot.drivers.motors.alarms import Alarms, News, untold
 from robot.drivers.motors.can import arming, joint_map, watching
 from robot.drivers.motors.can.coding import Coding
 from robot.drivers.motors.can.emulated import EmulatedBuses, buses_in
+from robot.drivers.motors.can.fields import limits
 from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.interview import interview
 from robot.drivers.motors.can.joint_map import JointMap
-from robot.drivers.motors.can.mit11 import ENABLED
 from robot.drivers.motors.can.packed import packed
 from robot.drivers.motors.can.ports import Ports, PythonCan, check_buses
 from robot.drivers.motors.can.reception import Reception
 from robot.drivers.motors.can.sending import TransmitQueue
+from robot.drivers.motors.can.values import ENABLED
 from robot.drivers.motors.can.verdicts import verdicts
 from robot.drivers.motors.claim import Claim
 from robot.drivers.motors.findings import refuse_grave
@@ -35,7 +36,6 @@ from robot.drivers.motors.speed_check import SpeedCheck
 from robot.drivers.motors.watching import SILENT_PERIODS
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
-from robot.se3 import Array
 
 INHERITS_PERIODS = 3
 """For so many at most replies are waited for of motors that another program left enabled."""
@@ -146,18 +146,13 @@ class CanMotors(Closing):
         answers = interview(ports, self._clock, self.joints)
         refuse_grave(verdicts(self.joints, answers), "motors")
         self.ranges = [
-            found if (asking := one.family.asking) and (found := answers[name].ranges(asking))
-            else one.expected
-            for name, one in self.joints.joints.items()
-        ]  # fmt: skip
+            answers[name].ranges(one) or one.expected for name, one in self.joints.joints.items()
+        ]
         self._is_known = True
 
     def _understand(self) -> None:
         """Read and write frames by the ranges that the motors have."""
-        most = np.array(self.ranges).T
-        gains = np.array([(one.family.kp_max, one.family.kd_max) for one in self._motors]).T
-        self._high: Array = np.stack((most[0], most[1], *gains, most[2]))
-        self._low: Array = self._high * [[-1.0], [-1.0], [0.0], [0.0], [-1.0]]
+        self._low, self._high = limits(self.ranges)
         self._coding = Coding(self.joints, self.ranges)
         self.reception = Reception(self.joints, self.ranges, self._coding)
 
@@ -281,9 +276,8 @@ class CanMotors(Closing):
         self._commanded += self._is_armed
         if self._is_armed:
             self._news.say(now_s)
-        status = self._motors[0].family.status
-        odd = set(heard.status.tolist()) - {ENABLED}
-        let_go = any(status(code).code == watching.LOST for code in odd)
+        odd = np.flatnonzero(heard.status != ENABLED).tolist()
+        let_go = any(self.status_of(index) == watching.LOST for index in odd)
         return MotorState(
             stamp_s=now_s,
             q=q,

@@ -25,7 +25,11 @@ def check(joints: JointMap) -> None:
         ConfigError: with all that it cannot.
     """
     problems = [
-        Problem(f"{name}: a {joint.model} is not emulated", joints.file, suggestion="Damiao's are")
+        Problem(
+            f"{name}: a {joint.model} is not emulated",
+            joints.file,
+            suggestion="damiao, robstride are",
+        )
         for name, joint in joints.joints.items()
         if joint.family.asking is None
     ]

@@ -6,24 +6,48 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from robot.drivers.motors.can import mit11, mit11_arrays
+import numpy as np
+import numpy.typing as npt
+
+from robot.drivers.motors.can import mit11, mit11_arrays, robstride
 from robot.drivers.motors.can.frames import Frame
-from robot.drivers.motors.can.mit11 import Feedback, Ranges, RegisterReply, Status, Target
-from robot.drivers.motors.can.mit11_arrays import ManyMit11
+from robot.drivers.motors.can.robstride_arrays import ManyRobStrides
+from robot.drivers.motors.can.values import (
+    Feedback,
+    ManyMotors,
+    Ranges,
+    RegisterReply,
+    Status,
+    Target,
+)
 
 
 class Settings(NamedTuple):
-    """Registers that a start looks at, by what they hold; see `mit11.REGISTERS`."""
+    """Registers that are looked at, by what they hold; None of what a family has in none.
 
-    reply_id: int
+    Attributes:
+        own_id: who it is.
+        watchdog, watchdog_unit_s: for how long it obeys the last command, and one of its units.
+        mode, right_mode: and what it has to be for commands to count.
+        supply: volts.
+        version: of its firmware.
+        ranges: what position, velocity and torque in its frames stand for.
+        position: at its shaft, as no range decides: a check of the range.
+        torque_limit: more than this it does not give, whatever a command says.
+        over_temperature: where it lets go.
+    """
+
     own_id: int
     watchdog: int
     watchdog_unit_s: float
     mode: int
     right_mode: int
-    version: int
-    ranges: tuple[int, int, int]
-    over_temperature: int
+    supply: int
+    version: int | None = None
+    ranges: tuple[int, int, int] | None = None
+    position: int | None = None
+    torque_limit: int | None = None
+    over_temperature: int | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +58,7 @@ class Asking:
     refresh: Callable[[int], Frame]
     read: Callable[[int, int], Frame]
     write: Callable[[int, int, float], Frame]
-    reply: Callable[[bytes], RegisterReply | None]
+    reply: Callable[[Frame], RegisterReply | None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,39 +66,44 @@ class Family:
     """One family's codec: pure functions.
 
     Attributes:
-        is_extended: whether its identifiers have 29 bits, for the load of a bus.
-        kp_max, kd_max: the largest gains its frames can say.
+        most_id: the highest identifier of a motor.
+        senders: of identifiers of 29 bits: whose feedback they are, `NOBODY`'s of others. None of a
+            family whose motors each answer under an identifier of 11 bits of its own.
         command, target: a target into a frame, and what a frame really says.
         enable, disable, clear_fault, set_zero: by identifier; not every motor can forget a fault.
         feedback: what a reply says.
-        arrays: the same commands and replies, for several motors with these ranges at once.
+        arrays: the same commands and replies, for several motors with these identifiers and ranges.
         status: what a status code says.
         asking: None of motors that cannot be asked; their map says their ranges.
     """
 
-    is_extended: bool
-    kp_max: float
-    kd_max: float
+    most_id: int
+    senders: Callable[[npt.NDArray[np.intp]], npt.NDArray[np.intp]] | None
     command: Callable[[int, Ranges, Target], Frame]
-    target: Callable[[bytes, Ranges], Target]
+    target: Callable[[Frame, Ranges], Target]
     enable: Callable[[int], Frame]
     disable: Callable[[int], Frame]
     clear_fault: Callable[[int], Frame] | None
     set_zero: Callable[[int], Frame]
-    feedback: Callable[[bytes, Ranges], Feedback | None]
-    arrays: Callable[[Sequence[Ranges]], ManyMit11]
+    feedback: Callable[[Frame, Ranges], Feedback | None]
+    arrays: Callable[[Sequence[int], Sequence[Ranges]], ManyMotors]
     status: Callable[[int], Status]
     asking: Asking | None
+
+    @property
+    def is_extended(self) -> bool:
+        """Whether its identifiers have 29 bits: its frames are longer."""
+        return self.senders is not None
 
 
 _DAMIAO = Asking(
     settings=Settings(
-        reply_id=mit11.REPLY_ID,
         own_id=mit11.OWN_ID,
         watchdog=mit11.TIMEOUT,
         watchdog_unit_s=mit11.TIMEOUT_UNIT_S,
         mode=mit11.MODE,
         right_mode=mit11.MIT_MODE,
+        supply=mit11.SUPPLY,
         version=mit11.VERSION,
         ranges=(mit11.POSITION_RANGE, mit11.VELOCITY_RANGE, mit11.TORQUE_RANGE),
         over_temperature=mit11.OVER_TEMPERATURE,
@@ -86,9 +115,8 @@ _DAMIAO = Asking(
 )
 
 _MIT = Family(
-    is_extended=False,
-    kp_max=mit11.KP_MAX,
-    kd_max=mit11.KD_MAX,
+    most_id=mit11.MOST_ID,
+    senders=None,
     command=mit11.command,
     target=mit11.target,
     enable=mit11.enable,
@@ -101,9 +129,40 @@ _MIT = Family(
     asking=_DAMIAO,
 )
 
+_ROBSTRIDE = Family(
+    most_id=robstride.MOST_ID,
+    senders=robstride.senders,
+    command=robstride.command,
+    target=robstride.target,
+    enable=robstride.enable,
+    disable=robstride.disable,
+    clear_fault=robstride.clear_fault,
+    set_zero=robstride.set_zero,
+    feedback=robstride.feedback,
+    arrays=ManyRobStrides,
+    status=robstride.status,
+    asking=Asking(
+        settings=Settings(
+            own_id=robstride.OWN_ID,
+            watchdog=robstride.TIMEOUT,
+            watchdog_unit_s=robstride.TIMEOUT_UNIT_S,
+            mode=robstride.MODE,
+            right_mode=robstride.OPERATION_MODE,
+            supply=robstride.SUPPLY,
+            position=robstride.POSITION,
+            torque_limit=robstride.TORQUE_LIMIT,
+        ),
+        refresh=robstride.refresh,
+        read=robstride.read_register,
+        write=robstride.write_register,
+        reply=robstride.register_reply,
+    ),
+)
+
 FAMILIES: dict[str, Family] = {
     "damiao": _MIT,
     "tmotor": replace(
         _MIT, clear_fault=None, feedback=mit11.feedback_ak, arrays=mit11_arrays.ak, asking=None
     ),
+    "robstride": _ROBSTRIDE,
 }

@@ -6,12 +6,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from robot.clock import Clock
-from robot.drivers.motors.can.families import Asking
+from robot.drivers.motors.can.families import Asking, Settings
 from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
-from robot.drivers.motors.can.mit11 import Feedback, Ranges
 from robot.drivers.motors.can.ports import Heard, Ports
-from robot.drivers.motors.can.replies import feedback_of
+from robot.drivers.motors.can.replies import feedback_of, senders
+from robot.drivers.motors.can.values import Feedback, Ranges
 
 ANSWERS_WITHIN_S = 0.008
 """To a frame that had to wait for all others of its bus: they take 0.14 ms each."""
@@ -35,12 +35,16 @@ class Answers:
     replies: int = 0
     feedback: Feedback | None = None
 
-    def ranges(self, asking: Asking) -> Ranges | None:
-        """What its frames stand for; None if it did not tell."""
-        numbers = asking.settings.ranges
+    def ranges(self, joint: JointMotor) -> Ranges | None:
+        """What its frames stand for, by the map where no register says it; None: not told."""
+        asking = joint.family.asking
+        numbers = None if asking is None else asking.settings.ranges
+        if numbers is None:
+            return joint.expected
         if any(number not in self.registers for number in numbers):
             return None
-        return Ranges(*(self.registers[number] for number in numbers))
+        position, velocity, torque = (self.registers[number] for number in numbers)
+        return Ranges(position, velocity, torque, joint.expected.kp, joint.expected.kd)
 
 
 def interview(ports: Ports, clock: Clock, joints: JointMap) -> dict[str, Answers]:
@@ -53,17 +57,33 @@ def interview(ports: Ports, clock: Clock, joints: JointMap) -> dict[str, Answers
     answers = {name: Answers() for name in joints.joints}
     if not asked:
         return answers
-    settings = _asking(next(iter(asked.values()))).settings
-    numbers = (
-        *settings.ranges, settings.mode, settings.watchdog, settings.version,
-        settings.over_temperature,
-    )  # fmt: skip
     for one_a_bus in _turns(asked):
-        read_registers(ports, clock, one_a_bus, answers, settings.own_id)
-    for number in numbers:
-        read_registers(ports, clock, asked, answers, number)
+        for settings, some in by_settings(one_a_bus):
+            read_registers(ports, clock, some, answers, settings.own_id)
+    for settings, some in by_settings(asked):
+        for number in _looked_at(settings):
+            read_registers(ports, clock, some, answers, number)
     _feedback(ports, clock, asked, answers)
     return answers
+
+
+def by_settings(
+    joints: Mapping[str, JointMotor],
+) -> list[tuple[Settings, dict[str, JointMotor]]]:
+    """Those of one family together: each has registers of its own."""
+    found: dict[Settings, dict[str, JointMotor]] = {}
+    for name, one in joints.items():
+        found.setdefault(_asking(one).settings, {})[name] = one
+    return list(found.items())
+
+
+def _looked_at(settings: Settings) -> list[int]:
+    """The registers that a start looks at."""
+    numbers = (
+        *(settings.ranges or ()), settings.mode, settings.watchdog, settings.version,
+        settings.over_temperature, settings.torque_limit, settings.position,
+    )  # fmt: skip
+    return [number for number in numbers if number is not None]
 
 
 def _turns(joints: Mapping[str, JointMotor]) -> list[dict[str, JointMotor]]:
@@ -85,18 +105,19 @@ def read_registers(
     answers: dict[str, Answers],
     number: int,
 ) -> None:
-    """Ask all of these for one register; those that did not answer, again."""
+    """Ask all of these, of one family, for one register; those that did not answer, again."""
     by_motor = {(one.bus, one.id): name for name, one in joints.items()}
 
     def take(heard: Heard) -> None:
-        reply = None if heard.frame is None else _asking_any(joints).reply(heard.frame.data)
+        reply = None if heard.frame is None else _asking_any(joints).reply(heard.frame)
         if reply is None or heard.frame is None or reply.register != number:
             return
         name = by_motor.get((heard.bus, reply.motor_id))
         if name is not None:
             counted[name] = counted.get(name, 0) + 1
             answers[name].registers[number] = reply.value
-            answers[name].answered_as.add(heard.frame.id)
+            one = joints[name]
+            answers[name].answered_as.add(one.answers_as if one.is_wide else heard.frame.id)
 
     missing = dict(joints)
     counted: dict[str, int] = {}
@@ -113,17 +134,14 @@ def read_registers(
 def _feedback(
     ports: Ports, clock: Clock, joints: Mapping[str, JointMotor], answers: dict[str, Answers]
 ) -> None:
-    by_reply = {(one.bus, one.answers_as): name for name, one in joints.items()}
+    sender = senders(joints)
 
     def take(heard: Heard) -> None:
-        name = None if heard.frame is None else by_reply.get((heard.bus, heard.frame.id))
-        if name is None or heard.frame is None:
+        if heard.frame is None or not (name := sender(heard)):
             return
         one = joints[name]
-        ranges = answers[name].ranges(_asking(one)) or one.expected
-        answers[name].feedback = (
-            feedback_of(one, heard.frame.data, ranges) or answers[name].feedback
-        )
+        ranges = answers[name].ranges(one) or one.expected
+        answers[name].feedback = feedback_of(one, heard.frame, ranges) or answers[name].feedback
 
     frames = [(one.bus, _asking(one).refresh(one.id)) for one in joints.values()]
     for wait_s in WAITS_S:

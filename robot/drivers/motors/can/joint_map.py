@@ -21,15 +21,16 @@ from robot.drivers.motors import motor_map
 from robot.drivers.motors.can import load as bus_load
 from robot.drivers.motors.can.families import FAMILIES, Family
 from robot.drivers.motors.can.frames import BITRATE_HZ
-from robot.drivers.motors.can.mit11 import MOST_ID, Ranges
+from robot.drivers.motors.can.mit11 import MOST_ID
 from robot.drivers.motors.can.models import MODELS
+from robot.drivers.motors.can.values import Ranges
 from robot.drivers.motors.motor_map import Motor, MotorMap, Wrong
 from robot.files import quantities as q
 from robot.model.description import RobotDescription
 
 FILE = "can.yaml"
 REPLIES_ABOVE = 16
-"""A motor answers under its identifier plus this, where nobody changed it."""
+"""So much above its own a motor has the identifier it answers under, where nobody changed it."""
 
 Identifier: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=MOST_ID)]
 Bitrate: TypeAlias = Annotated[int, msgspec.Meta(ge=10_000, le=1_000_000, extra={"unit": "bit/s"})]
@@ -74,7 +75,7 @@ class JointMotor(Motor, frozen=True, kw_only=True, forbid_unknown_fields=True):
         bus: one of `buses`.
         model: a row of `robot.drivers.motors.can.models`.
         id: it listens for this (decimal).
-        reply_id: it answers under this; 0: its `id` plus 16.
+        reply_id: it answers under this; 0: its `id` plus 16, or with 29 bits its `id`.
         ranges: what its registers hold.
     """
 
@@ -91,8 +92,13 @@ class JointMotor(Motor, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
     @property
     def answers_as(self) -> int:
-        """The identifier of its replies."""
-        return self.reply_id or self.id + REPLIES_ABOVE
+        """The identifier of its replies; with 29 bits, its own stands in them."""
+        return self.reply_id or self.id + (0 if self.is_wide else REPLIES_ABOVE)
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether its frames have identifiers of 29 bits."""
+        return self.model in MODELS and self.family.is_extended
 
     @property
     def family(self) -> Family:
@@ -102,18 +108,19 @@ class JointMotor(Motor, frozen=True, kw_only=True, forbid_unknown_fields=True):
     @property
     def expected(self) -> Ranges:
         """What its registers are expected to hold."""
-        known = self.ranges or MODELS[self.model]
-        return Ranges(known.position_rad, known.velocity_rad_s, known.torque_nm)
+        model = MODELS[self.model]
+        known = self.ranges or model
+        return Ranges(known.position_rad, known.velocity_rad_s, known.torque_nm, model.kp, model.kd)
 
     @property
     def kp_most(self) -> float:
         """The stiffest that its frames can say, at the joint."""
-        return self.family.kp_max * self.gear * self.gear
+        return MODELS[self.model].kp * self.gear * self.gear
 
     @property
     def kd_most(self) -> float:
         """The most damping that its frames can say, at the joint."""
-        return self.family.kd_max * self.gear * self.gear
+        return MODELS[self.model].kd * self.gear * self.gear
 
 
 class JointMap(MotorMap, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -187,20 +194,28 @@ def _names(found: JointMap) -> Iterator[Wrong]:
             text = f"a {joint.model} cannot be asked what its frames stand for"
             cure = "say its ranges, as the maker's tool shows them"
             yield f"$.joints.{name}.model", text, cure
+        if joint.is_wide and joint.reply_id:
+            text = f"the replies of a {joint.model} say whose they are, under many identifiers"
+            yield f"$.joints.{name}.reply_id", text, "leave reply_id out"
+        if joint.model in MODELS and joint.id > (most := joint.family.most_id):
+            text = f"a {joint.model} has an identifier from 1 to {most}, not {joint.id}"
+            yield f"$.joints.{name}.id", text, "look it up with `humanoid motors scan`"
 
 
 def _identifiers(found: JointMap) -> Iterator[Wrong]:
     """Two that share an identifier answer at once, and neither can be told from the other."""
     for bus in found.buses:
-        taken: dict[int, str] = {}
+        taken: dict[tuple[bool, int], str] = {}
         for name, joint in found.on(bus).items():
-            for key, number in (("id", joint.id), ("reply_id", joint.answers_as)):
-                if number in taken:
-                    text = f"{number} on the bus {bus!r} is {taken[number]}'s already"
+            wide = joint.is_wide
+            used = {"id": joint.id} | ({} if wide else {"reply_id": joint.answers_as})
+            for key, number in used.items():
+                if (wide, number) in taken:
+                    text = f"{number} on the bus {bus!r} is {taken[wide, number]}'s already"
                     place = key if key == "id" or joint.reply_id else "id"
                     cure = f"give {name} an {key} of its own, in the motor and here"
                     yield f"$.joints.{name}.{place}", text, cure
-                taken.setdefault(number, name)
+                taken.setdefault((wide, number), name)
 
 
 def _limits(found: JointMap) -> Iterator[Wrong]:

@@ -24,10 +24,18 @@ import struct
 from typing import Final, NamedTuple
 
 from robot.drivers.motors.can.frames import Frame
+from robot.drivers.motors.can.values import (
+    DISABLED,
+    ENABLED,
+    Feedback,
+    Ranges,
+    RegisterReply,
+    Status,
+    Target,
+    unknown,
+)
 from robot.errors import DriverError
 
-KP_MAX: Final = 500.0
-KD_MAX: Final = 5.0
 REGISTERS_ID: Final = 0x7FF
 """Where Damiao's motors take what concerns registers; whom it is for stands in the data."""
 MOST_ID: Final = 0x7FE
@@ -35,58 +43,7 @@ _READ, _WRITE, _STORE, _REFRESH = 0x33, 0x55, 0xAA, 0xCC
 _TAIL = b"\xff" * 7
 
 
-class Ranges(NamedTuple):
-    """What the largest numbers in a motor's frames stand for, to either side of zero."""
-
-    position_rad: float
-    velocity_rad_s: float
-    torque_nm: float
-
-
-class Target(NamedTuple):
-    """What one motor is told, at its own shaft: kp (q - q_now) + kd (qd - qd_now) + tau."""
-
-    q_rad: float
-    qd_rad_s: float
-    kp: float
-    kd: float
-    tau_nm: float
-
-
-class Feedback(NamedTuple):
-    """What one motor answered, at its own shaft.
-
-    Attributes:
-        id_nibble: the low four bits of its identifier.
-        status: its status code; `STATUS` names it.
-        q_rad, qd_rad_s, tau_nm: position, velocity, torque.
-        driver_c, winding_c: temperatures of the electronics and of the windings.
-    """
-
-    id_nibble: int
-    status: int
-    q_rad: float
-    qd_rad_s: float
-    tau_nm: float
-    driver_c: float
-    winding_c: float
-
-
-class Status(NamedTuple):
-    """What a status code says.
-
-    Attributes:
-        code: for programs, as in `over_current`.
-        is_fault: whether the motor gives no torque because of it.
-        cure: what a person does about it.
-    """
-
-    code: str
-    is_fault: bool
-    cure: str = ""
-
-
-DISABLED, ENABLED, AK_ERRORS = 0x0, 0x1, 0x10
+AK_ERRORS: Final = 0x10
 STATUS: dict[int, Status] = {
     DISABLED: Status("disabled", is_fault=False),
     ENABLED: Status("enabled", is_fault=False),
@@ -108,8 +65,7 @@ STATUS: dict[int, Status] = {
 
 def status(code: int) -> Status:
     """What a status code says; one that the manual does not list is a fault."""
-    cure = "compare the motor's firmware with its manual"
-    return STATUS.get(code) or Status(f"unknown_status_{code:x}", is_fault=True, cure=cure)
+    return STATUS.get(code) or unknown(code)
 
 
 # --- commands --------------------------------------------------------------------------------
@@ -124,28 +80,28 @@ def command(motor_id: int, ranges: Ranges, target: Target) -> Frame:
     bits = _steps("position", target.q_rad, -ranges.position_rad, ranges.position_rad, 16)
     for name, value, low, high in (
         ("velocity", target.qd_rad_s, -ranges.velocity_rad_s, ranges.velocity_rad_s),
-        ("kp", target.kp, 0.0, KP_MAX),
-        ("kd", target.kd, 0.0, KD_MAX),
+        ("kp", target.kp, 0.0, ranges.kp),
+        ("kd", target.kd, 0.0, ranges.kd),
         ("torque", target.tau_nm, -ranges.torque_nm, ranges.torque_nm),
     ):
         bits = bits << 12 | _steps(name, value, low, high, 12)
     return Frame(_checked(motor_id), bits.to_bytes(8, "big"))
 
 
-def target(data: bytes, ranges: Ranges) -> Target:
+def target(frame: Frame, ranges: Ranges) -> Target:
     """What a frame of `command` really says: the value asked for, to the nearest step.
 
     Raises:
         DriverError: if it is no such frame.
     """
-    if len(data) != 8:
-        raise DriverError(f"a command has 8 bytes, this one has {len(data)}")
-    bits = int.from_bytes(data, "big")
+    if len(frame.data) != 8:
+        raise DriverError(f"a command has 8 bytes, this one has {len(frame.data)}")
+    bits = int.from_bytes(frame.data, "big")
     return Target(
         q_rad=_value(bits >> 48, ranges.position_rad, 16),
         qd_rad_s=_value(bits >> 36 & 0xFFF, ranges.velocity_rad_s, 12),
-        kp=(bits >> 24 & 0xFFF) * KP_MAX / 0xFFF,
-        kd=(bits >> 12 & 0xFFF) * KD_MAX / 0xFFF,
+        kp=(bits >> 24 & 0xFFF) * ranges.kp / 0xFFF,
+        kd=(bits >> 12 & 0xFFF) * ranges.kd / 0xFFF,
         tau_nm=_value(bits & 0xFFF, ranges.torque_nm, 12),
     )
 
@@ -173,13 +129,14 @@ def clear_fault(motor_id: int) -> Frame:
 # --- replies ---------------------------------------------------------------------------------
 
 
-def feedback(data: bytes, ranges: Ranges) -> Feedback | None:
+def feedback(frame: Frame, ranges: Ranges) -> Feedback | None:
     """What a Damiao answered; None of a frame that is too short or too long."""
+    data = frame.data
     if len(data) != 8:
         return None
     bits = int.from_bytes(data, "big")
     return Feedback(
-        id_nibble=data[0] & 0xF,
+        motor_id=data[0] & 0xF,
         status=data[0] >> 4,
         q_rad=_value(bits >> 40 & 0xFFFF, ranges.position_rad, 16),
         qd_rad_s=_value(bits >> 28 & 0xFFF, ranges.velocity_rad_s, 12),
@@ -189,19 +146,20 @@ def feedback(data: bytes, ranges: Ranges) -> Feedback | None:
     )
 
 
-def feedback_ak(data: bytes, ranges: Ranges) -> Feedback | None:
+def feedback_ak(frame: Frame, ranges: Ranges) -> Feedback | None:
     """What an AK answered; None of a frame that is too short or too long.
 
     Its first byte is the identifier, its last one an error, told here as the status of 16 and up;
     older firmware sends neither that nor a temperature (6 bytes).
     """
+    data = frame.data
     if len(data) not in (6, 8):
         return None
     bits = int.from_bytes(data[:6], "big")
     error = data[7] if len(data) == 8 else 0
     celsius = float(data[6]) if len(data) == 8 else math.nan
     return Feedback(
-        id_nibble=data[0] & 0xF,
+        motor_id=data[0] & 0xF,
         status=AK_ERRORS + error if error else ENABLED,
         q_rad=_value(bits >> 24 & 0xFFFF, ranges.position_rad, 16),
         qd_rad_s=_value(bits >> 12 & 0xFFF, ranges.velocity_rad_s, 12),
@@ -245,21 +203,14 @@ def refresh(motor_id: int) -> Frame:
     return _of_registers(motor_id, bytes((_REFRESH, 0, 0, 0, 0, 0)))
 
 
-class RegisterReply(NamedTuple):
-    """A register's value as its motor told it, with the whole of the motor's identifier."""
-
-    motor_id: int
-    register: int
-    value: float
-
-
-def register_reply(data: bytes) -> RegisterReply | None:
+def register_reply(frame: Frame) -> RegisterReply | None:
     """The register in a reply; None if it is none.
 
     Feedback can look the same: that of a disabled motor near the lower end of its range. So nobody
     looks for registers in replies but after having asked that very motor for one.
     """
-    if len(data) != 8 or data[2] not in (_READ, _WRITE) or data[1] > 0x7:
+    data = frame.data
+    if frame.is_extended or len(data) != 8 or data[2] not in (_READ, _WRITE) or data[1] > 0x7:
         return None
     found = REGISTERS.get(data[3])
     if found is None:

@@ -7,6 +7,7 @@ LeRobot's, 10 in `damiao-motor`'s): what is in force is whatever the motor says.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 
@@ -18,6 +19,7 @@ class Model(NamedTuple):
         position_rad, velocity_rad_s, torque_nm: the largest its frames can say, as it is sold; the
             torque is its peak.
         source: of these figures.
+        kp, kd: the largest gains that they can say.
     """
 
     family: str
@@ -25,10 +27,16 @@ class Model(NamedTuple):
     velocity_rad_s: float
     torque_nm: float
     source: str
+    kp: float = 500.0
+    kd: float = 5.0
 
 
 _DAMIAO = "Damiao's Limit_Param table, as in damiao-motor 1.0.6"
 _LEROBOT = f"{_DAMIAO} and LeRobot's damiao tables"
+_TWO_TURNS = 4 * math.pi
+_CLIENT = "the table of robstride-dynamics 0.0.1"
+_MANUAL = "RobStride's manuals, and robstride-dynamics 0.0.1"
+_ROBSTRIDE = "RobStride's manuals; no parameter holds it, and the maker's client differs: "
 _AK = "T-Motor, AK series module driver manual, MIT mode: ranges by model"
 
 MODELS: dict[str, Model] = {
@@ -53,4 +61,11 @@ MODELS: dict[str, Model] = {
     "AK80-6": Model("tmotor", 12.5, 76, 12, _AK),
     "AK80-9": Model("tmotor", 12.5, 50, 18, _AK),
     "AK80-64": Model("tmotor", 12.5, 8, 144, _AK),
+    "RS00": Model("robstride", _TWO_TURNS, 33, 14, f"{_ROBSTRIDE}50 rad/s, 17 N m"),
+    "RS01": Model("robstride", _TWO_TURNS, 44, 17, _CLIENT),
+    "RS02": Model("robstride", _TWO_TURNS, 44, 17, _MANUAL),
+    "RS03": Model("robstride", _TWO_TURNS, 20, 60, f"{_ROBSTRIDE}50 rad/s; 33 in MIT", 5000, 100),
+    "RS04": Model("robstride", _TWO_TURNS, 15, 120, _MANUAL, 5000, 100),
+    "RS05": Model("robstride", _TWO_TURNS, 33, 17, _CLIENT),
+    "RS06": Model("robstride", _TWO_TURNS, 20, 60, _CLIENT, 5000, 100),
 }

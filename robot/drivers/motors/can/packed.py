@@ -19,6 +19,8 @@ BUS_OFF = 0x40
 """In the identifier of an error frame (linux/can/error.h)."""
 
 Bytes: TypeAlias = npt.NDArray[np.uint8]
+Records: TypeAlias = npt.NDArray[np.void]
+"""Of type `RECORD`."""
 _LAYOUT = struct.Struct("=IB3x8s")
 BUS_OFF_FRAME = _LAYOUT.pack(ERROR | BUS_OFF, MAX_DATA, bytes(MAX_DATA))
 

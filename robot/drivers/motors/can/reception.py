@@ -9,14 +9,21 @@ import numpy.typing as npt
 
 from robot.drivers.motors.can.coding import Coding
 from robot.drivers.motors.can.joint_map import JointMap
-from robot.drivers.motors.can.mit11 import DISABLED, Ranges
-from robot.drivers.motors.can.packed import BUS_OFF, ERROR, RECORD, SHORT_IDS, Bytes
+from robot.drivers.motors.can.packed import (
+    BUS_OFF,
+    ERROR,
+    EXTENDED,
+    RECORD,
+    REMOTE,
+    SHORT_IDS,
+    Records,
+    unpacked,
+)
 from robot.drivers.motors.can.replies import is_about_register, may_be_about_register
+from robot.drivers.motors.can.values import DISABLED, NOBODY, Ranges
 from robot.drivers.motors.gearing import Gearing
 from robot.drivers.motors.jumps import Jumps
 from robot.se3 import Array
-
-NOBODY = -1
 
 
 class Reception:
@@ -47,9 +54,15 @@ class Reception:
         self._coding, self._period_s = coding, joints.period_s
         self._motors = list(joints.joints.values())
         self._first_key = {bus: number * SHORT_IDS for number, bus in enumerate(joints.buses)}
-        self._by_key = np.full(SHORT_IDS * len(joints.buses) + 1, NOBODY, np.intp)
+        wide = {one.family.senders for one in self._motors} - {None}
+        self._wide = [whose for whose in wide if whose is not None]
+        block = SHORT_IDS * len(joints.buses)  # that of short identifiers; behind it one a family
+        self._block = block
+        self._by_key = np.full(block * (1 + len(self._wide)) + 1, NOBODY, np.intp)
         for index, one in enumerate(self._motors):
-            self._by_key[self._first_key[one.bus] + one.answers_as] = index
+            whose = one.family.senders
+            number = 0 if whose is None else block * (1 + self._wide.index(whose))
+            self._by_key[number + self._first_key[one.bus] + one.answers_as] = index
         self._jumps = Jumps(np.array([one.velocity_rad_s for one in ranges]))
 
     @property
@@ -72,40 +85,54 @@ class Reception:
         counts = [len(packed) // RECORD.itemsize for _, packed in came]
         first = np.repeat(np.array([self._first_key[bus] for bus, _ in came]), counts)
         is_short = keys < SHORT_IDS
-        which = self._by_key[np.where(is_short, keys + first, NOBODY)]
-        off: Sequence[str] = () if is_short.all() else self._off(keys, first)
-        data, lengths = frames["data"], frames["length"]
+        at = np.where(is_short, keys + first, NOBODY)
+        off: Sequence[str] = ()
+        if not is_short.all():
+            self._find_wide(at, keys, first)
+            off = self._off(keys, first)
+        which = self._by_key[at]
         ours = which != NOBODY
-        ours[ours] = self._coding.is_feedback(lengths[ours], which[ours])
-        for index in np.flatnonzero(ours & may_be_about_register(data)).tolist():
-            joint = self._motors[int(which[index])]
-            ours[index] = not is_about_register(joint, data[index].tobytes())
+        ours[ours] = self._coding.is_feedback(frames["length"][ours], which[ours])
+        for index in np.flatnonzero(ours & may_be_about_register(frames["data"])).tolist():
+            joint, frame = self._motors[int(which[index])], unpacked(frames[index].tobytes())
+            ours[index] = frame is not None and not is_about_register(joint, frame)
         if not ours.all():
             self.ignored += int(np.count_nonzero(~ours))
-            which, data, lengths = which[ours], data[ours], lengths[ours]
+            which, frames = which[ours], frames[ours]
         replies = np.bincount(which, minlength=len(self._replies))
         self._replies += replies
         if int(replies.max()) <= 1:
-            self._believe(which, data, lengths, now_s)
+            self._believe(which, frames, now_s)
             return off
         order = np.argsort(which, kind="stable")
         turn = np.empty(len(which), np.intp)  # its first reply, its second, and so on
         turn[order] = np.arange(len(which)) - np.repeat(np.cumsum(replies) - replies, replies)
         for number in range(int(replies.max())):
             now = turn == number
-            self._believe(which[now], data[now], lengths[now], now_s)
+            self._believe(which[now], frames[now], now_s)
         return off
+
+    def _find_wide(
+        self,
+        at: npt.NDArray[np.intp],
+        keys: npt.NDArray[np.intp],
+        first: npt.NDArray[np.intp],
+    ) -> None:
+        """Say where in `_by_key` frames with identifiers of 29 bits stand."""
+        is_wide = (keys & EXTENDED != 0) & (keys & (ERROR | REMOTE) == 0)
+        for number, whose in enumerate(self._wide, start=1):
+            sender = whose(keys & ~EXTENDED)
+            mine = is_wide & (sender != NOBODY)
+            at[mine] = self._block * number + first[mine] + sender[mine]
 
     def _off(self, keys: npt.NDArray[np.intp], first: npt.NDArray[np.intp]) -> Sequence[str]:
         """Buses whose error frames say that their controller went off."""
         told = first[(keys & ERROR != 0) & (keys & BUS_OFF != 0)].tolist()
         return [bus for bus, key in self._first_key.items() if key in told]
 
-    def _believe(
-        self, which: npt.NDArray[np.intp], data: Bytes, lengths: Bytes, now_s: float
-    ) -> None:
+    def _believe(self, which: npt.NDArray[np.intp], frames: Records, now_s: float) -> None:
         """Take what different motors said, but for positions that nobody can have come to."""
-        motion, status, winding_c = self._coding.feedback(data, lengths, which)
+        motion, status, winding_c = self._coding.feedback(frames, which)
         since_s = now_s - self.heard_s[which]
         calm = self._jumps.calm(which, motion[0] - self.q[which], since_s)
         if calm is not None:

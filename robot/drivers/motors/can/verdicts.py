@@ -14,6 +14,9 @@ from robot.drivers.motors.mounting import misplaced
 
 SAME_SHARE = 1e-4
 """Registers are single floats; a range that somebody changed differs by more."""
+SAME_RAD = 0.02
+ASKED_WITHIN_S = 0.3
+"""A position is asked for so long before the state at most: a joint in motion is elsewhere then."""
 
 
 def verdicts(joints: JointMap, answers: Mapping[str, Answers]) -> list[Finding]:
@@ -41,12 +44,13 @@ def _of_one(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[Said
         text = f"{where} answers under {others}, and not under {joint.answers_as}"
         yield "reply_id", text, f"write reply_id: {others} into the map, or change it there", True
     yield from _registers(joint, asking, answer)
-    yield from _state(joint, asking, answer)
+    yield from _scale(joint, asking, answer)
+    yield from _state(joint, answer)
 
 
 def _registers(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[Said]:
     settings, values = asking.settings, answer.registers
-    words = zip(("position", "velocity", "torque"), settings.ranges, joint.expected, strict=True)
+    words = zip(("position", "velocity", "torque"), settings.ranges or (), joint.expected)  # noqa: B905
     for what, number, wanted in words:
         read = values.get(number)
         if read is None:
@@ -61,14 +65,40 @@ def _registers(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[S
         text = f"it is in mode {int(mode)}, and must be in {settings.right_mode}"
         cure = f"write {settings.right_mode} into register {settings.mode}"
         yield "wrong_mode", text, cure, True
-    hot_c = values.get(settings.over_temperature)
+    if settings.torque_limit is not None:
+        yield from _weak(joint, values.get(settings.torque_limit), settings.torque_limit)
+    hot_c = None if settings.over_temperature is None else values.get(settings.over_temperature)
     if hot_c is not None and hot_c < joint.over_temperature_c:
         text = f"it lets go at {hot_c:g} °C, before the map's {joint.over_temperature_c:g}"
         yield "trips_early", text, f"set over_temperature_c under {hot_c:g} in the map", False
 
 
-def _state(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[Said]:
-    state, ranges = answer.feedback, answer.ranges(asking)
+def _weak(joint: JointMotor, limit_nm: float | None, register: int) -> Iterator[Said]:
+    """Whether it gives as much torque as it is told to."""
+    wanted_nm = joint.torque_limit_nm / joint.gear
+    if limit_nm is None or limit_nm >= wanted_nm * (1.0 - SAME_SHARE):
+        return
+    text = f"it gives {limit_nm:g} N m at most (register {register:#x}), its joint {wanted_nm:g}"
+    cure = f"write {wanted_nm:g} into the register, or lower torque_limit_nm in the map"
+    yield "wrong_range", text, cure, True
+
+
+def _scale(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[Said]:
+    """Whether the position in its frames is that in a register, where one says it as a number."""
+    register, told = asking.settings.position, answer.feedback
+    if register is None or told is None or register not in answer.registers:
+        return
+    read = answer.registers[register]
+    if abs(read - told.q_rad) <= SAME_RAD + abs(told.qd_rad_s) * ASKED_WITHIN_S:
+        return
+    range_rad = joint.expected.position_rad
+    text = f"its frames say it is at {told.q_rad:.3f} rad, its register {register:#x} {read:.3f}"
+    cure = f"its position range is not {range_rad:g}; write the right one into the map"
+    yield "wrong_range", text, cure, True
+
+
+def _state(joint: JointMotor, answer: Answers) -> Iterator[Said]:
+    state, ranges = answer.feedback, answer.ranges(joint)
     if state is None or ranges is None:
         yield "no_state", "it does not tell its state", "check the bus for lost frames", True
         return

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 from robot.drivers.motors.alarms import BY_STATUS, Alarm, Alarms, Kind, Level
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
-from robot.drivers.motors.can.mit11 import DISABLED, ENABLED
 from robot.drivers.motors.can.reception import Reception
 from robot.drivers.motors.can.sending import TransmitQueue
+from robot.drivers.motors.can.values import DISABLED, ENABLED
 from robot.drivers.motors.watching import UNPLUGGED, JointAlarms
 from robot.se3 import Array
 
@@ -115,7 +115,7 @@ class Watch:
             alarms += looks.silence(index, misses, motor, f"{cure} for errors")
         alarms += self._status(int(heard.status[index]), name, one, is_armed=is_armed)
         alarms += looks.heat(index, float(heard.temperature_c[index]))
-        cure = "compare its velocity range (register 22) and gear with the map"
+        cure = "compare its velocity range (a Damiao's register 22) and gear with the map"
         alarms += looks.motion(index, int(heard.jumps[index]), cure)
         if is_armed and heard.doubles[index] >= DOUBLE_PERIODS:  # else others may have commanded
             text = f"more than one motor answers as {one.answers_as} on {one.bus}"

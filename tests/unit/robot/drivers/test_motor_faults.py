@@ -1,4 +1,4 @@
-"""What goes wrong with real motors while they are commanded, a row a fault, both families alike.
+"""What goes wrong with real motors while they are commanded, a row a fault, all families alike.
 
 Of each: which alarm, at which level, of whom, within how many periods; that people are told it once
 with a cure; that no motor ever gives more than its joint may, before and after; and that what is
@@ -14,7 +14,9 @@ import pytest
 
 from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.dynamixel.joint_map import JointServo, Port, ServoMap
+from sim.devices.can_motor import CanMotor
 from sim.devices.damiao import Damiao
+from sim.devices.robstride import RESET, RUN, RobStride
 from sim.devices.shaft import FreeShaft
 from tests.fakes import can_rig, dynamixel_rig
 
@@ -27,6 +29,11 @@ WHO = "joint0_1"
 def can() -> can_rig.Rig:
     """Two buses with two joints each, 500 Hz."""
     return can_rig.Rig(can_rig.limbs(2, 2))
+
+
+def robstrides() -> can_rig.Rig:
+    """The same with RobStrides."""
+    return can_rig.Rig(can_rig.limbs(2, 2, model="RS03"))
 
 
 def servos() -> dynamixel_rig.Rig:
@@ -89,12 +96,12 @@ def has_a_twin(rig: AnyRig) -> None:
     (Two that answer at the same moment throw each other off the bus, and are silent.)
     """
     one = motor_of(rig)
-    assert isinstance(one, Damiao)
-    twin = Damiao(
+    assert isinstance(one, CanMotor)
+    twin = type(one)(
         one.wire, FreeShaft(q_rad=one.shaft.q_rad), one.motor_id, one.reply_id, one.position_rad,
-        one.velocity_rad_s, one.torque_nm, later_s=8e-4,
+        one.velocity_rad_s, one.torque_nm, one.kp, one.kd, later_s=8e-4,
     )  # fmt: skip
-    twin.status = 1
+    setattr(twin, *(("mode", RUN) if isinstance(twin, RobStride) else ("status", 1)))
 
 
 def stands_still(rig: AnyRig) -> None:
@@ -138,6 +145,21 @@ FAULTS = [
     latched("can_adapter_unplugged", can, goes_away, "unplugged", 1, "bus0"),
     Fault("can_twin_plugged_in", can, has_a_twin, "duplicate_id", Level.HOLD, 4),
     Fault("can_warm", can, warms, "warm", Level.DERATE, 1),
+    Fault("rs_three_losses", robstrides, sets("trouble.loses", 5), "silent", Level.HOLD, 3),
+    latched("rs_silent_joint", robstrides, sets("trouble.silent", True), "silent", 10),
+    Fault("rs_over_current", robstrides, sets("trouble.status", 0x02), "over_current", Level.HOLD,
+          2),
+    Fault("rs_stalled", robstrides, sets("trouble.status", 0x10), "overload", Level.HOLD, 2),
+    latched("rs_encoder", robstrides, sets("trouble.status", 0x08), "encoder", 2),
+    latched("rs_winding_at_its_limit", robstrides, sets("winding_c", 146.0), "winding_hot", 2),
+    latched("rs_undervoltage", robstrides, sets("volts", 14.0), "under_voltage", 2),
+    latched("rs_disabled_by_somebody", robstrides, sets("mode", RESET), "disabled", 2),
+    latched("rs_watchdog_expired", robstrides, stands_still, "disabled", 2),
+    latched("rs_encoder_jump", robstrides, jumps, "encoder_jump", 3),
+    latched("rs_bus_off", robstrides, goes_off, "bus_off", 20, "bus0"),
+    latched("rs_adapter_unplugged", robstrides, goes_away, "unplugged", 1, "bus0"),
+    Fault("rs_twin_plugged_in", robstrides, has_a_twin, "duplicate_id", Level.HOLD, 4),
+    Fault("rs_warm", robstrides, warms, "warm", Level.DERATE, 1),
     Fault("servo_three_losses", servos, sets("trouble.spoils", 5), "silent", Level.HOLD, 3),
     latched("servo_silent", servos, sets("trouble.silent", True), "silent", 6),
     latched("servo_undervoltage", servos, sets("volts", 9.0), "input_voltage", 4),
@@ -231,18 +253,20 @@ def heal(rig: AnyRig) -> None:
     motor.winding_c = 30.0
     if isinstance(motor, Damiao):
         motor.volts, motor.driver_c, motor.status = 24.0, 30.0, 0
+    elif isinstance(motor, RobStride):
+        motor.volts, motor.faults, motor.mode = 24.0, 0, RESET
     else:
         motor.volts = motor.kind.volts
         motor.reboot()
 
 
-@pytest.mark.parametrize("make", [can, servos])
+@pytest.mark.parametrize("make", [can, robstrides, servos])
 def test_losses_that_end_let_joints_go_on_where_they_are_sent(make):
     rig = make()
     with rig.driver as driver:
         Watched(rig).cycle(WARM_UP)
         servo = motor_of(rig)
-        setattr(servo.trouble, "loses" if isinstance(servo, Damiao) else "spoils", 4)
+        setattr(servo.trouble, "loses" if isinstance(servo, CanMotor) else "spoils", 4)
         Watched(rig).cycle(4)
         assert driver.alarms.level == Level.HOLD
         Watched(rig).cycle(4)
@@ -251,7 +275,7 @@ def test_losses_that_end_let_joints_go_on_where_they_are_sent(make):
         assert not sent.alarms
 
 
-@pytest.mark.parametrize("make", [can, servos])
+@pytest.mark.parametrize("make", [can, robstrides, servos])
 def test_at_hold_nothing_new_is_obeyed_and_at_sit_commands_pass_to_what_is_left(make):
     rig = make()
     well = 3  # a joint on the other bus or port

@@ -4,7 +4,8 @@ import struct
 
 import pytest
 
-from sim.devices.damiao import AMBIENT_C, FLAWS, Damiao
+from sim.devices.can_motor import AMBIENT_C, FLAWS
+from sim.devices.damiao import Damiao
 from sim.devices.shaft import FreeShaft
 from sim.devices.wire import CanFrame, Wire
 

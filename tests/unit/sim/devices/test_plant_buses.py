@@ -39,6 +39,26 @@ def rig(robot, tmp_path):
     return Lockstep(plant, msgspec.structs.replace(found, joints=joints), tmp_path)
 
 
+@pytest.fixture
+def rig_on_robstrides(robot, tmp_path):
+    """Juno's legs on RobStrides, the rest on Damiaos as proposed."""
+    found = joint_map.beside(robot)
+    legs = {"DM10010L": ("RS04", 15.0, 120.0), "DM8009": ("RS03", 20.0, 60.0)}
+    joints: dict[str, joint_map.JointMotor] = {}
+    for name, one in found.joints.items():
+        joints[name] = one
+        if one.bus in {"left_leg", "right_leg", "feet"}:
+            model, rad_s, nm = legs[one.model]
+            joints[name] = msgspec.structs.replace(
+                one,
+                model=model,
+                velocity_limit_rad_s=min(rad_s, one.velocity_limit_rad_s),
+                torque_limit_nm=min(nm, one.torque_limit_nm),
+            )
+    plant = Plant(world.load("empty"), robot, seed=0, noisy=False)
+    return Lockstep(plant, msgspec.structs.replace(found, joints=joints), tmp_path)
+
+
 def holding(robot, now_s: float) -> MotorCommand:
     motors = list(robot.motors.values())
     q, zero = np.array(robot.posture("nominal")), np.zeros(len(motors))
@@ -110,7 +130,9 @@ def test_without_commands_motors_let_go_by_their_own_watchdogs(robot, rig):
         driver._is_armed = False  # it was killed
 
 
-def test_the_controller_walks_by_frames_alone(robot, rig):
+@pytest.mark.parametrize("motors", ["rig", "rig_on_robstrides"])
+def test_the_controller_walks_by_frames_alone(robot, motors: str, request):
+    rig = request.getfixturevalue(motors)
     loop = ControlLoop(robot)
     lines: list[str] = []
     with rig.driver(lines.append) as driver:

@@ -7,6 +7,8 @@ from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.can import mit11
 from robot.drivers.motors.can.driver import CanMotors
+from robot.drivers.motors.can.frames import Frame
+from robot.drivers.motors.can.values import Ranges
 from robot.errors import DriverError
 from sim.devices.direct import DirectPorts
 from sim.devices.wire import CanFrame
@@ -531,4 +533,4 @@ def test_motors_that_cannot_be_asked_are_silent_without_alarm_until_they_are_com
 
 def test_a_damaged_command_does_not_exist():
     with pytest.raises(DriverError):
-        mit11.target(b"short", mit11.Ranges(1.0, 1.0, 1.0))
+        mit11.target(Frame(1, b"short"), Ranges(1.0, 1.0, 1.0))

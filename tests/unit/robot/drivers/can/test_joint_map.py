@@ -18,7 +18,7 @@ def test_a_map_is_read_in_its_order_with_what_it_leaves_out(tmp_path):
     assert list(found.joints) == ["shoulder", "elbow", "wrist"]
     shoulder = found.joints["shoulder"]
     assert (shoulder.answers_as, shoulder.gear, shoulder.sign) == (17, 1.0, -1)
-    assert shoulder.expected == (12.5, 45, 54)
+    assert shoulder.expected == (12.5, 45, 54, 500, 5)
     assert found.buses["arm"].bitrate_hz == 1_000_000
     assert found.watchdog_s == 0.02
     for angle in (-1.0, 0.0, 0.7):
@@ -58,7 +58,7 @@ def test_what_cannot_be_meant_is_refused_where_it_stands(tmp_path, old, new, lin
 def test_an_ak_is_taken_where_a_person_says_its_ranges(tmp_path):
     ranges = "ranges: {position_rad: 12.5, velocity_rad_s: 50, torque_nm: 18}"
     found = arm(tmp_path, ARM.replace("model: DM4310", f"model: AK80-9, {ranges}"))
-    assert found.joints["wrist"].expected == (12.5, 50.0, 18.0)
+    assert found.joints["wrist"].expected == (12.5, 50.0, 18.0, 500, 5)
 
 
 def test_a_map_without_a_joint_is_refused(tmp_path):

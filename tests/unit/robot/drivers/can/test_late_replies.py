@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from robot.drivers.motors.can import arming
+from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.interview import interview
 from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.can.mit11 import register_reply
@@ -28,7 +29,7 @@ class Late(DirectPorts):
         for one in super().receive(until_s):
             heard.append(one)
             assert one.frame is not None
-            if register_reply(one.frame.data) is not None:
+            if register_reply(one.frame) is not None:
                 self._kept[one.frame.id] = one
             elif one.frame.id in self._kept:
                 heard.append(self._kept[one.frame.id])
@@ -72,9 +73,9 @@ def test_a_motor_that_did_not_let_go_is_not_taken_for_one_that_did(rig: Rig):
 
 def test_feedback_away_from_the_end_of_its_range_is_feedback_whatever_its_third_byte(rig: Rig):
     joint = rig.joints.joints["wrist"]
-    frame = bytes((joint.id, 0, 0x33, 21, 0, 0, 0, 0))
+    frame = Frame(joint.answers_as, bytes((joint.id, 0, 0x33, 21, 0, 0, 0, 0)))
     assert feedback_of(joint, frame, joint.expected) is None
-    moved = bytes((joint.id, 0x80, 0x33, 21, 0, 0, 0, 0))
+    moved = Frame(joint.answers_as, bytes((joint.id, 0x80, 0x33, 21, 0, 0, 0, 0)))
     assert feedback_of(joint, moved, joint.expected) is not None
 
 

@@ -9,13 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from robot.drivers.motors.can import mit11
-from robot.drivers.motors.can.frames import worst_bits
-from robot.drivers.motors.can.mit11 import Ranges, Target
+from robot.drivers.motors.can.frames import Frame, worst_bits
 from robot.drivers.motors.can.models import MODELS
+from robot.drivers.motors.can.values import ENABLED, Ranges, Target
 from robot.errors import DriverError
 
 RANGES = Ranges(12.5, 30.0, 10.0)
-ranges = st.builds(Ranges, st.floats(0.5, 100.0), st.floats(0.5, 300.0), st.floats(0.1, 500.0))
+ranges = st.tuples(st.floats(0.5, 100.0), st.floats(0.5, 300.0), st.floats(0.1, 500.0)).map(
+    lambda sides: Ranges(*sides)
+)
 whole = {"position": 16, "velocity": 12, "kp": 12, "kd": 12, "torque": 12}
 raw = st.integers(0, 2**64 - 1).map(lambda bits: bits.to_bytes(8, "big"))
 
@@ -51,7 +53,7 @@ def test_the_bits_on_the_wire_are_those_of_the_standard():
 
 @given(raw, ranges)
 def test_every_command_there_is_survives_a_round_trip(data: bytes, ranges: Ranges):
-    assert mit11.command(7, ranges, mit11.target(data, ranges)).data == data
+    assert mit11.command(7, ranges, mit11.target(Frame(7, data), ranges)).data == data
 
 
 @given(
@@ -65,7 +67,7 @@ def test_a_target_is_met_to_half_a_step(ranges, q, qd, kp, kd, tau):
         kd * 5,
         tau * ranges.torque_nm,
     )
-    got = mit11.target(mit11.command(7, ranges, asked).data, ranges)
+    got = mit11.target(mit11.command(7, ranges, asked), ranges)
     spans = (2 * ranges.position_rad, 2 * ranges.velocity_rad_s, 500, 5, 2 * ranges.torque_nm)
     for a, b, span, bits in zip(asked, got, spans, whole.values(), strict=True):
         assert abs(a - b) <= 0.501 * span / (2**bits - 1)
@@ -104,9 +106,10 @@ def test_registers_take_only_what_they_can_hold(register: int, value: float):
 
 @given(st.integers(0, 15), st.integers(0, 15), st.integers(0, 65535), st.integers(0, 4095))
 def test_feedback_says_what_stands_in_it(motor_id: int, status: int, q: int, qd: int):
-    got = mit11.feedback(reply(motor_id, status, q, qd, tau=0x800, hot=40), RANGES)
+    answer = Frame(0x15, reply(motor_id, status, q, qd, tau=0x800, hot=40))
+    got = mit11.feedback(answer, RANGES)
     assert got is not None
-    assert (got.id_nibble, got.status) == (motor_id, status)
+    assert (got.motor_id, got.status) == (motor_id, status)
     assert got.q_rad == pytest.approx(-12.5 + 25.0 * q / 65535, abs=1e-9)
     assert got.qd_rad_s == pytest.approx(-30.0 + 60.0 * qd / 4095, abs=1e-9)
     assert got.tau_nm == pytest.approx(10.0 / 4095, abs=1e-9)
@@ -122,22 +125,23 @@ def test_every_status_has_a_name_and_every_fault_a_cure():
 
 @given(raw)
 def test_an_ak_answers_with_its_identifier_before_and_its_error_behind(data: bytes):
-    got, want = mit11.feedback_ak(data, RANGES), mit11.feedback(data, RANGES)
+    frame = Frame(0x15, data)
+    got, want = mit11.feedback_ak(frame, RANGES), mit11.feedback(frame, RANGES)
     assert got is not None
     assert want is not None
     assert got[2:5] == want[2:5]
-    assert (got.winding_c, got.status) == (data[6], 16 + data[7] if data[7] else mit11.ENABLED)
-    short = mit11.feedback_ak(data[:6], RANGES)
+    assert (got.winding_c, got.status) == (data[6], 16 + data[7] if data[7] else ENABLED)
+    short = mit11.feedback_ak(Frame(0x15, data[:6]), RANGES)
     assert short is not None
     assert short[2:5] == want[2:5]
-    assert short.status == mit11.ENABLED
-    assert mit11.feedback_ak(data[:5], RANGES) is None
+    assert short.status == ENABLED
+    assert mit11.feedback_ak(Frame(0x15, data[:5]), RANGES) is None
 
 
 @given(st.integers(1, 0x7FE), st.sampled_from(sorted(mit11.REGISTERS)), st.integers(0, 2**32 - 1))
 def test_registers_come_back_with_their_motor(motor_id: int, register: int, bits: int):
     data = struct.pack("<HBBI", motor_id, 0x33, register, bits)
-    got = mit11.register_reply(data)
+    got = mit11.register_reply(Frame(0x15, data))
     assert got is not None
     assert (got.motor_id, got.register) == (motor_id, register)
     if mit11.REGISTERS[register].is_whole:
@@ -159,9 +163,10 @@ def test_decoding_is_the_public_clients():
         ours = Ranges(known.position_rad, known.velocity_rad_s, known.torque_nm)
         for _ in range(2000):
             data = draw.randbytes(8)
-            want, got = theirs.decode_sensor_feedback(data), mit11.feedback(data, ours)
+            want = theirs.decode_sensor_feedback(data)
+            got = mit11.feedback(Frame(0x15, data), ours)
             assert got is not None
-            assert (got.id_nibble, got.status) == (want["can_id"], want["status_code"])
+            assert (got.motor_id, got.status) == (want["can_id"], want["status_code"])
             for name, value in (("pos", got.q_rad), ("vel", got.qd_rad_s), ("torq", got.tau_nm)):
                 assert value == pytest.approx(want[name], abs=1e-9)
             assert (got.driver_c, got.winding_c) == (want["t_mos"], want["t_rotor"])
@@ -213,10 +218,11 @@ def test_no_noise_raises():
     draw = random.Random(3)
     for _ in range(20_000):
         data = draw.randbytes(draw.choice((0, 1, 3, 7, 8, 8, 8, 8)))
-        got = mit11.feedback(data, RANGES)
+        frame = Frame(0x15, data)
+        got = mit11.feedback(frame, RANGES)
         assert (got is None) == (len(data) != 8)
         if got is not None:
             assert abs(got.q_rad) <= 12.5
             assert mit11.status(got.status).code
-        mit11.register_reply(data)
-        mit11.feedback_ak(data, RANGES)
+        mit11.register_reply(frame)
+        mit11.feedback_ak(frame, RANGES)

@@ -1,4 +1,4 @@
-"""All motors of a cycle at once: the same bits as one by one."""
+"""All motors of a cycle at once, of every family: the same bits as one by one."""
 
 import math
 import random
@@ -8,24 +8,27 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robot.drivers.motors.can import mit11, mit11_arrays
 from robot.drivers.motors.can.coding import Coding
+from robot.drivers.motors.can.families import FAMILIES
+from robot.drivers.motors.can.fields import FIELDS
 from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.joint_map import Bus, JointMap, JointMotor, MotorRanges
-from robot.drivers.motors.can.mit11 import KD_MAX, KP_MAX, Ranges, Target
 from robot.drivers.motors.can.models import MODELS
-from robot.drivers.motors.can.packed import BUS_OFF_FRAME, packed, unpacked
+from robot.drivers.motors.can.packed import BUS_OFF_FRAME, EXTENDED, RECORD, packed, unpacked
 from robot.drivers.motors.can.reception import Reception
+from robot.drivers.motors.can.values import Ranges, Target
 from robot.errors import DriverError
 
 share = st.floats(0.0, 1.0)
-motor_ranges = st.sampled_from([Ranges(*model[1:4]) for model in MODELS.values()])
+RANGES = [Ranges(*model[1:4], model.kp, model.kd) for model in MODELS.values()]
+motor_ranges = st.sampled_from(RANGES)
+families = pytest.mark.parametrize("family", FAMILIES.values(), ids=list(FAMILIES))
 asked = st.tuples(motor_ranges, share, share, share, share, share)
 
 
 def target_of(ranges: Ranges, *shares: float) -> Target:
     sides = (ranges.position_rad, ranges.velocity_rad_s, None, None, ranges.torque_nm)
-    most = (0.0, 0.0, KP_MAX, KD_MAX, 0.0)
+    most = (0.0, 0.0, ranges.kp, ranges.kd, 0.0)
     return Target(
         *(
             part * top if side is None else min(side, max(-side, (2.0 * part - 1.0) * side))
@@ -34,45 +37,55 @@ def target_of(ranges: Ranges, *shares: float) -> Target:
     )
 
 
-@given(st.lists(asked, min_size=1, max_size=12))
-def test_commands_have_the_bits_of_the_scalar_codec(wanted):
+@families
+@given(wanted=st.lists(asked, min_size=1, max_size=12))
+def test_commands_have_the_bits_of_the_scalar_codec(family, wanted):
     ranges = [one[0] for one in wanted]
     targets = [target_of(*one) for one in wanted]
-    data, said = mit11_arrays.damiao(ranges).commands(np.array(targets).T)
+    numbers = list(range(1, len(ranges) + 1))
+    ids, data, said = family.arrays(numbers, ranges).commands(np.array(targets).T)
     for k, (most, target) in enumerate(zip(ranges, targets, strict=True)):
-        want = mit11.command(1, most, target).data
-        assert data[k].tobytes() == want
-        assert tuple(said[:, k].tolist()) == mit11.target(want, most)
+        want = family.command(numbers[k], most, target)
+        assert (ids[k], data[k].tobytes()) == (_flagged(want), want.data)
+        assert tuple(said[:, k].tolist()) == pytest.approx(family.target(want, most), abs=1e-12)
 
 
+def _flagged(frame: Frame) -> int:
+    return frame.id | (EXTENDED if frame.is_extended else 0)
+
+
+@families
 @pytest.mark.parametrize("field", range(5))
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf, 1e4])
-def test_what_does_not_fit_is_refused_with_its_field(field: int, bad: float):
+def test_what_does_not_fit_is_refused_with_its_field(family, field: int, bad: float):
     targets = np.zeros((5, 3))
     targets[field, 1] = bad
-    with pytest.raises(DriverError, match=mit11_arrays.FIELDS[field]):
-        mit11_arrays.damiao([Ranges(12.5, 30.0, 10.0)] * 3).commands(targets)
+    with pytest.raises(DriverError, match=FIELDS[field]):
+        family.arrays([1, 2, 3], [Ranges(12.5, 30.0, 10.0)] * 3).commands(targets)
 
 
-@pytest.mark.parametrize(
-    ("arrays", "one"),
-    [(mit11_arrays.damiao, mit11.feedback), (mit11_arrays.ak, mit11.feedback_ak)],
-)
-def test_replies_say_what_the_scalar_codec_reads(arrays, one):
-    draw = random.Random(1)
-    ranges = [Ranges(*model[1:4]) for model in MODELS.values()]
-    codec = arrays(ranges)
+@families
+def test_replies_say_what_the_scalar_codec_reads(family):
+    draw, wide = random.Random(1), family.is_extended
+    codec = family.arrays(list(range(1, len(RANGES) + 1)), RANGES)
     for _ in range(200):
-        which = np.array([draw.randrange(len(ranges)) for _ in range(30)])
-        came = [draw.randbytes(draw.choice((0, 5, 6, 7, 8, 8, 8))) for _ in which]
-        data = np.array([list(part.ljust(8, b"\0")) for part in came], np.uint8)
-        lengths = np.array([len(part) for part in came], np.uint8)
-        fits = codec.is_feedback(lengths)
-        want = [one(part, ranges[k]) for part, k in zip(came, which, strict=True)]
+        which = np.array([draw.randrange(len(RANGES)) for _ in range(30)])
+        came = [
+            Frame(
+                2 << 24 | draw.randrange(1 << 24) if wide else 0x15,
+                draw.randbytes(draw.choice((0, 5, 6, 7, 8, 8, 8))),
+                wide,
+            )
+            for _ in which
+        ]
+        frames = np.frombuffer(b"".join(map(packed, came)), RECORD)
+        fits = codec.is_feedback(frames["length"])
+        want = [family.feedback(one, RANGES[k]) for one, k in zip(came, which, strict=True)]
         assert fits.tolist() == [found is not None for found in want]
-        got = codec.feedback(data[fits], lengths[fits], which[fits])
+        ours = frames[fits]
+        got = codec.feedback(ours["id"], ours["data"], ours["length"], which[fits])
         for k, found in enumerate(found for found in want if found is not None):
-            assert tuple(got.motion[:, k].tolist()) == found[2:5]
+            assert tuple(got.motion[:, k].tolist()) == pytest.approx(found[2:5], abs=1e-12)
             assert got.status[k] == found.status
             np.testing.assert_equal(got.winding_c[k], found.winding_c)
 
@@ -99,7 +112,10 @@ def mixed() -> JointMap:
         "velocity_limit_rad_s": 5.0,
         "torque_limit_nm": 5.0,
     }
-    rows = (("b", "DM4310", 1), ("a", "AK70-10", 1), ("b", "AK70-10", 2), ("a", "DM8009", 2))
+    rows = (
+        ("b", "DM4310", 1), ("a", "AK70-10", 1), ("b", "AK70-10", 2), ("a", "DM8009", 2),
+        ("a", "RS02", 1), ("b", "RS04", 7),
+    )  # fmt: skip
     return JointMap(
         rate_hz=500,
         buses={name: Bus(channel=name) for name in ("a", "b")},
@@ -145,6 +161,10 @@ def test_what_came_together_is_believed_as_one_by_one():
             for _ in range(draw.randrange(6)):
                 number = draw.choice((17, 18, 18, 19, 0x300))
                 data = draw.randbytes(draw.choice((3, 6, 8, 8, 8)))
+                if draw.random() < 0.3:
+                    kind, whose = draw.choice((2, 2, 0x18, 0x15, 0x11)), draw.choice((1, 7, 9))
+                    wide = kind << 24 | draw.randrange(256) << 16 | whose << 8 | 0xFD
+                    frames.append(packed(Frame(wide, data, is_extended=True)))
                 if draw.random() < 0.2:
                     data = bytes((number - 16 & 0xFF, 0, 0x33, 21)) + data[:4]  # as of a register
                 frames.append(packed(Frame(number, data, draw.random() < 0.1)))
