@@ -33,6 +33,7 @@ class SpeedCheck:
         self._told: Array = np.zeros(count)
         self._said: Array = np.zeros(count)
         self._gone: Array = np.zeros(count)
+        self._torn: Flags = np.zeros(count, np.bool_)
         self._began: Array | None = None
         self._began_s = self._last_s = 0.0
 
@@ -42,8 +43,17 @@ class SpeedCheck:
         nan = np.full_like(self._said, np.nan)
         return np.divide(self._said, self._gone, out=nan, where=self._gone > SLACK_RAD)
 
-    def feel(self, stamp_s: float, q: Array, qd: Array) -> None:
-        """A new state of all joints, shape (n,) each."""
+    def feel(self, stamp_s: float, q: Array, qd: Array, misses: npt.NDArray[np.intp]) -> None:
+        """A new state of all joints, shape (n,) each.
+
+        Args:
+            stamp_s: when.
+            q: where they are.
+            qd: how fast they say that they move.
+            misses: periods in a row without a reply. One is bridged; a window with more tells
+                nothing, as nobody knows how fast the joint was meanwhile.
+        """
+        self._torn = self._torn | (misses > 1)
         if self._began is None:
             self._began, self._began_s, self._last_s = q.copy(), stamp_s, stamp_s
             return
@@ -53,11 +63,12 @@ class SpeedCheck:
             return
         gone = q - self._began
         larger = np.maximum(np.abs(gone), np.abs(self._told))
-        differs = np.abs(gone - self._told) > SLACK_RAD + SLACK_SHARE * larger
+        differs = (np.abs(gone - self._told) > SLACK_RAD + SLACK_SHARE * larger) & ~self._torn
         self.wrong, self._before = differs & self._before, differs
-        far = larger > SLACK_RAD
+        far = (larger > SLACK_RAD) & ~self._torn
         self.moved = self.moved | far
         self._gone += np.where(far, np.abs(gone), 0.0)
         self._said += np.where(far, self._told * np.sign(gone), 0.0)
         self._began, self._began_s = q.copy(), stamp_s
         self._told[:] = 0.0
+        self._torn[:] = False

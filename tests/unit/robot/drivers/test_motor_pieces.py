@@ -17,6 +17,7 @@ from robot.drivers.motors.jumps import JUMPS_BELIEVED, Jumps
 from robot.drivers.motors.life import Life
 from robot.drivers.motors.periods import Periods
 from robot.drivers.motors.plant_behind import MOST_SLEPT_S, POLL_S, SLEPT_SHARE, PlantClock
+from robot.drivers.motors.speed_check import SpeedCheck
 from robot.errors import DriverError
 
 # --- the time of a plant in another process -------------------------------------------------------
@@ -237,3 +238,20 @@ def test_the_longer_nothing_was_heard_the_farther_a_motor_may_have_turned():
     one = np.array([0])
     assert jumps.calm(one, np.array([1.0]), np.array([0.1])) is None
     assert jumps.calm(one, np.array([1.0]), np.array([np.inf])) is None  # never heard before
+
+
+def test_speeds_are_not_judged_by_what_nobody_told():
+    """A joint swings while its replies stop for 60 ms, again and again: its scale is right."""
+    check, q, qd, misses = SpeedCheck(1), np.zeros(1), np.zeros(1), np.zeros(1, np.intp)
+    wrong = 0
+    for k in range(3000):
+        now_s = 0.002 * k
+        if k % 50 < 20:
+            q, qd = np.array([np.sin(6.0 * now_s)]), np.array([6.0 * np.cos(6.0 * now_s)])
+            misses = 0 * misses
+        else:
+            misses = misses + 1
+        check.feel(now_s, q, qd, misses)
+        wrong += bool(check.wrong[0])
+    assert not wrong
+    assert not check.moved.any() or abs(check.ratio[0] - 1.0) < 0.1
