@@ -12,7 +12,7 @@ from typing import Any, Literal, TypeVar
 
 import msgspec
 
-from executive.journal import journal, reader
+from executive.journal import journal, reader, successor
 from executive.journal.journal import FILE, WALL_FILE
 from executive.journal.places import HERE, all_places, outside
 from executive.journal.run import Run
@@ -51,7 +51,13 @@ class End(msgspec.Struct, frozen=True):
 
 
 class Past(msgspec.Struct, frozen=True, kw_only=True):
-    """One run: `began` is the time of day it began at (ISO 8601), `took_s` the robot's time."""
+    """One run.
+
+    Attributes:
+        began: the time of day it began at (ISO 8601).
+        took_s: the robot's time.
+        gone_on_in: the run that went on with it after it was cut off, by the name of its folder.
+    """
 
     folder: str
     began: str
@@ -62,6 +68,7 @@ class Past(msgspec.Struct, frozen=True, kw_only=True):
     ending: Ending
     code: str
     took_s: float
+    gone_on_in: str = ""
 
 
 def runs(
@@ -148,6 +155,7 @@ def look(folder: Path) -> Past:
         ending=ending,
         code=code,
         took_s=round(took_s, 2),
+        gone_on_in=successor.name_of(folder) if ending == "cut off" else "",
     )
 
 

@@ -10,7 +10,7 @@ from typing import Literal
 
 import msgspec
 
-from executive.journal import failures, journal, reader, words
+from executive.journal import failures, journal, reader, successor, words
 from executive.journal.run import Attempt, LogLine, Reason, Run, Task, Trouble
 from robot.errors import ConfigError
 
@@ -50,11 +50,11 @@ def told(folder: Path, *, job: int | None = None, live: bool = False) -> Explana
         ConfigError: there is no journal, or no such job in it.
     """
     run = reader.read(folder)
-    linked = journal.is_linked(folder)
+    linked, gone_on_in = journal.is_linked(folder), successor.name_of(folder)
     known = [one.number for one in run.jobs]
     if job is None:
         if len(known) < 2:
-            return why(run, live=live, linked=linked)
+            return why(run, live=live, linked=linked, gone_on_in=gone_on_in)
         job = max(run.jobs, key=lambda one: one.weight).number
     elif job not in known:
         raise ConfigError(f"there is no job {job}; there is: {words.listed(map(str, known))}")
@@ -62,16 +62,18 @@ def told(folder: Path, *, job: int | None = None, live: bool = False) -> Explana
     if {state for _, state in asked.states} <= {"waiting"}:
         verdict = f"It has not begun: it waits for its turn. Asked for: {asked.text}"
         return Explanation(status="idle", verdict=verdict, lines=(verdict,))
-    return why(reader.read(folder, job=job), live=live, linked=linked)
+    one = reader.read(folder, job=job)
+    return why(one, live=live, linked=linked, gone_on_in=gone_on_in)
 
 
-def why(run: Run, *, live: bool = False, linked: bool = False) -> Explanation:
+def why(run: Run, *, live: bool = False, linked: bool = False, gone_on_in: str = "") -> Explanation:
     """Explain the newest task of a run.
 
     Args:
         run: what happened.
         live: the run is still under way, so that a journal without an end is nothing special.
         linked: its journal is a link, which may be read but not gone on with.
+        gone_on_in: the run that went on with it, by the name of its folder; "": none.
     """
     state = run.task.state
     if state == "done":
@@ -84,7 +86,9 @@ def why(run: Run, *, live: bool = False, linked: bool = False) -> Explanation:
         return Explanation(status="idle", verdict=IDLE, lines=(IDLE,))
     if live:
         return _going_on(run)
-    return _cut_off(run, linked=linked) if run.events else _unreadable(run)
+    if not run.events:
+        return _unreadable(run)
+    return _cut_off(run, linked=linked, gone_on_in=gone_on_in)
 
 
 # --- how it ended ------------------------------------------------------------------------------
@@ -137,12 +141,14 @@ def _unreadable(run: Run) -> Explanation:
     return _explained("unreadable", f"The journal holds {holds}.", run, lines)
 
 
-def _cut_off(run: Run, *, linked: bool) -> Explanation:
+def _cut_off(run: Run, *, linked: bool, gone_on_in: str) -> Explanation:
     verdict = f"The journal ends at {run.end_s:.1f} s without an outcome: it was cut off."
     cure = "go on where it was with `humanoid resume`"
     if run.about.get("runtime") != "fast":  # that one has no processes of its own
         cure += ", or see logs/ in its folder"
-    if run.unreadable or run.missing or not run.asked:  # as `humanoid resume` refuses
+    if gone_on_in:
+        cure = f"it was gone on with: `humanoid why {gone_on_in}` says how that went"
+    elif run.unreadable or run.missing or not run.asked:  # as `humanoid resume` refuses
         cure = ANEW
     elif linked:
         cure = f"{journal.PUT_BACK}, then go on with `humanoid resume`"

@@ -33,8 +33,8 @@ def scan(options: Scan) -> None:
 
       humanoid motors scan --map robot/model/juno/dynamixel.yaml --emulated
 
-    Damiao's and RobStride's motors and Dynamixel servos are found. Exit status 1 where nobody answers, or two
-    answer as one.
+    Damiao's and RobStride's motors and Dynamixel servos are found. Exit status 1 where nobody
+    answers, or two answer as one.
     """
     from executive.frontends.motors import commands
 

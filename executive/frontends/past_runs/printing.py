@@ -145,15 +145,25 @@ def _list(shown: Iterable[Past], *, located: bool) -> None:
     """The same as `_table`, each run in lines of its own."""
     for one in shown:
         name = _name(one)
-        say(f"{name}  {one.code or one.ending}", styled=(name, "bold"))
+        say(f"{name}  {_how(one)}", styled=(name, "bold"))
         say(f"  {one.took_s:.0f} s  {one.runtime}  {one.text}")
         if located:
             say(f"  {_home_short(Path(one.folder).parent)}")
 
 
+def _how(one: Past) -> str:
+    """How it ended, and where that is not how it went on, in which run."""
+    if one.gone_on_in:
+        return f"gone on in {_short(one.gone_on_in)}"
+    return one.code or one.ending
+
+
 def _name(one: Past) -> str:
     """What a run is called by: when it began, or as somebody wanted it."""
-    name = one.folder.rpartition("/")[2].replace("\n", "\\n")
+    return _short(one.folder.rpartition("/")[2].replace("\n", "\\n"))
+
+
+def _short(name: str) -> str:
     stamp = re.match(r"\d{8}-\d{6}", name)
     return stamp[0] if stamp else name
 
@@ -172,7 +182,7 @@ def _table(shown: Iterable[Past], *, located: bool) -> Table:
             _name(one),
             f"{one.took_s:.0f} s",
             one.runtime,
-            Text(one.code or one.ending, style=_STYLES.get(one.ending, "dim")),
+            Text(_how(one), style=_STYLES.get(one.ending, "dim")),
             one.text,
             *([_home_short(Path(one.folder).parent)] if located else []),
         )

@@ -13,7 +13,7 @@ from pathlib import Path
 import msgspec
 
 from executive.engine.loop import Interrupts
-from executive.journal import journal
+from executive.journal import journal, successor
 from executive.journal.files import LineFile
 from executive.journal.journal import CAPACITY, FILE, Journal
 from executive.journal.why import ANEW
@@ -54,11 +54,13 @@ def check(folder: Path) -> Recording:
     """Read a run that can be gone on with.
 
     Raises:
-        ConfigError: if it is under way, has ended, or has not begun to do anything.
+        ConfigError: if it is under way, has ended, has not begun to do anything, or another run
+            went on with it.
     """
     if journal.is_written(folder):
         cure = "wait until it has ended, or stop it with Ctrl-C where it runs"
         raise ConfigError([Problem(f"{folder} is under way", suggestion=cure)])
+    successor.refuse(folder)
     recorded = recording.load(folder)
     if recorded.ended:
         cure = "`humanoid why` says how; ask for it anew with `humanoid do`"

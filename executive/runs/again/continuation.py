@@ -12,7 +12,7 @@ from pathlib import Path
 import msgspec
 
 from executive.engine.jobs import OVER
-from executive.journal import journal
+from executive.journal import journal, successor
 from executive.journal.journal import Event
 from executive.journal.words import DRAWN
 from executive.meaning.request import Setting
@@ -116,6 +116,7 @@ def return_to(session: Session, left: Left) -> None:
 def _carry_over(left: Left, session: Session) -> None:
     if session.setup.folder is not None:
         run_folder.carry_missions_over(left.folder, session.setup.folder)
+        successor.note(left.folder, session.setup.folder)
 
 
 def take_over(session: Session, events: list[Event]) -> None:

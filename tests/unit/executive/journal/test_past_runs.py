@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from executive.journal import past_runs
+from executive.journal import past_runs, successor
+from executive.journal.why import told
 from robot.errors import ConfigError
 
 JOURNAL = b'{"n":0,"t_s":0.0,"event":"run","text":"squat","world":"kitchen","seed":3}\n'
@@ -74,6 +75,24 @@ def test_the_header_says_what_a_run_was_about(run):
     (run / "run.json").write_text('{"text": "wave", "seed": 7}')
     (one,) = past_runs.history(run.parent)
     assert (one.text, one.seed, one.ending) == ("wave", 7, "cut off")
+
+
+def test_a_run_that_was_gone_on_with_says_in_which_and_is_not_gone_on_with_again(run):
+    (one,) = past_runs.history(run.parent)
+    assert one.gone_on_in == ""
+    successor.refuse(run)
+    successor.note(run, run.parent / "20261127-120000-squat")
+    (one,) = past_runs.history(run.parent)
+    assert (one.ending, one.gone_on_in) == ("cut off", "20261127-120000-squat")
+    with pytest.raises(ConfigError, match="humanoid resume 20261127-120000-squat"):
+        successor.refuse(run)
+    assert "20261127-120000-squat" in str(told(run).lines)
+
+
+@pytest.mark.parametrize("words", [b"\x1b[31mred\n", b"\xff" * 400, b"x" * 2_000, b"a\nb"])
+def test_what_a_stranger_wrote_there_is_one_line_that_can_be_printed(run, words):
+    (run / successor.FILE).write_bytes(words)
+    assert successor.name_of(run).isprintable()
 
 
 def test_a_folder_from_which_the_journal_is_gone_is_told_from_one_that_is_not_there(run):
