@@ -154,16 +154,16 @@ def _list(shown: Iterable[Past], *, located: bool) -> None:
 def _how(one: Past) -> str:
     """How it ended, and where that is not how it went on, in which run."""
     if one.gone_on_in:
-        return f"gone on in {_short(one.gone_on_in)}"
+        return f"gone on in {_called(one.gone_on_in)}"
     return one.code or one.ending
 
 
 def _name(one: Past) -> str:
     """What a run is called by: when it began, or as somebody wanted it."""
-    return _short(one.folder.rpartition("/")[2].replace("\n", "\\n"))
+    return _called(one.folder.rpartition("/")[2].replace("\n", "\\n"))
 
 
-def _short(name: str) -> str:
+def _called(name: str) -> str:
     stamp = re.match(r"\d{8}-\d{6}", name)
     return stamp[0] if stamp else name
 
