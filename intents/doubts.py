@@ -32,8 +32,31 @@ from intents.english.words.names import NameIndex
 from intents.english.words.reporting import is_reported
 from intents.english.words.spelling import GRAMMAR_WORDS
 from intents.english.words.verbs import base_form, verbs_at
-from intents.goals import Cancel, Count, Goal, LookAt, Pause, Report, Say, Stop, Tell, Wait, each
+from intents.goals import (
+    Cancel,
+    Count,
+    Goal,
+    LookAt,
+    Pause,
+    Report,
+    Say,
+    Stop,
+    Tell,
+    Wait,
+    each,
+    to_builtins,
+)
+from intents.mismatches import (
+    counts_another,
+    loses_all,
+    measures_lost,
+    mistimes,
+    orders_fewer,
+    switches_furniture,
+    turns_round,
+)
 from intents.outcomes import Goals, Question
+from intents.sameness import same
 from intents.second_look import LOOKING, Attempt, only_asks
 
 SURE, SURER, SUREST, NEVER = 0.7, 0.9, 0.95, 2.0
@@ -43,6 +66,9 @@ nothing to do in the sentence, or the network itself is not sure of its words; n
 QUITE_SURE = 0.85
 """The same for a sentence whose form is no order's, what the robot is to tell of itself, and a
 name that was taken back."""
+WITNESSED = 0.6
+"""The same where the grammar offers just what the network says: two that know nothing of one another
+were wrong in one of 75, whatever is lost."""
 FOUND = 0.5
 """So sure the network itself has to be of its words, or its reading to be one of the `SUREST`."""
 SHORT = 6
@@ -104,8 +130,17 @@ def needed(
             ask or to refuse, and then no word may be lost that limits an order.
     """
     case = _Case(text, index, before, both)
+    agreed = agree(both) and bool(offers(before))
     doubts = _DOUBTS if least <= SURE else (*_DOUBTS, *_MORE_DOUBTS)
+    if agreed:
+        doubts = tuple((doubt, one) for doubt, one in doubts if doubt not in _WITNESSED)
+        least = WITNESSED if least <= SURE else least
     return max((least, *(one for doubt, one in doubts if doubt(case))))
+
+
+def agree(both: Both) -> bool:
+    """Whether what the grammar reads and what the network says come to the same."""
+    return same(to_builtins(both.own.goals), to_builtins(both.other.goals))
 
 
 def is_by_the_way(goal: Goal) -> bool:
@@ -181,9 +216,23 @@ def _passes_on(case: _Case) -> bool:
     return any(isinstance(goal, Say) for goal in each(case.goals))
 
 
-def _measures(case: _Case) -> bool:
-    """Whether it is said how long or how far: of what may well be guessed."""
-    return not MEASURES.isdisjoint(case.words)
+def _loses_measure(case: _Case) -> bool:
+    """Whether it is said how long or how far, and no goal says that: it may well matter."""
+    lost = measures_lost(case.words, case.goals)
+    return lost or (not MEASURES.isdisjoint(case.words) and not numbers(case.goals))
+
+
+def _is_contrary(case: _Case) -> bool:
+    """Whether the contrary is done of what was said, or to more, fewer or others."""
+    words, goals, index = case.words, case.goals, case.names
+    return (
+        turns_round(words, goals)
+        or switches_furniture(words, goals)
+        or counts_another(words, goals, index)
+        or mistimes(words, goals)
+        or loses_all(words, goals, index)
+        or orders_fewer(case.text, goals)
+    )
 
 
 def _loses_limit(case: _Case) -> bool:
@@ -261,11 +310,6 @@ def _loses_name(case: _Case) -> bool:
     return bool(gone) and not _are_taken_back(case, gone)
 
 
-def _takes_back(case: _Case) -> bool:
-    gone = lost(case.both)
-    return bool(gone) and _are_taken_back(case, gone)
-
-
 def _are_taken_back(case: _Case, gone: Sequence[Name]) -> bool:
     """Whether each lost name has one of its kind behind it, and a word between that takes it back.
 
@@ -305,27 +349,32 @@ def _loses_count(case: _Case) -> bool:
 
 
 _DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
-    (_loses_name, NEVER),
+    (_is_contrary, NEVER),
     (_loses_count, NEVER),
     (_counts_nobody_said, NEVER),
     (_loses_time, NEVER),
     (_leaves_out, NEVER),
     (_is_short, NEVER),
-    (_only_tells, NEVER),
     (_is_quoted, NEVER),
     (_only_asks, NEVER),
     (_calls_somebody, NEVER),
     (_is_not_of_itself, NEVER),
+    (_loses_name, SUREST),
+    (_only_tells, SUREST),
     (_is_idle, SUREST),
     (_is_unsure, SUREST),
     (_ends_something, SUREST),
     (_passes_on, SURER),
-    (_measures, SURER),
-    (_loses_limit, SURER),
+    (_loses_measure, SURER),
+    (_loses_limit, QUITE_SURE),
     (_has_no_request, QUITE_SURE),
     (_tells_of_itself, QUITE_SURE),
-    (_takes_back, QUITE_SURE),
 )
+_WITNESSED = (
+    _loses_name, _is_unsure, _has_no_request, _loses_limit, _loses_measure, _passes_on, _points,
+    _is_idle,
+)  # fmt: skip
+"""What is no doubt where the grammar offers the same."""
 _MORE_DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
     (_loses_any_limit, NEVER),
     (_points, NEVER),

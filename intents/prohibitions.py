@@ -24,7 +24,7 @@ from intents.vocabulary import Vocabulary
 
 _TELLS = lexicon.words("i we they he she it is are was were why that who which if do does did")
 """After one of these a negation tells of something: "I do not know", "it is not on the table"."""
-_PUTS = lexicon.words("put place leave set store stand lay bring carry take move")
+_PUTS = lexicon.PUTTING | lexicon.words("bring carry take move")
 """Where a thing stands after one of these is where it is not to go."""
 _SPARES = lexicon.phrases("hands off,except,except for,apart from,other than,excluding,save for")
 _ALONE = lexicon.words("alone be where there as untouched")

@@ -10,6 +10,7 @@ from intents.english.words.lexer import tokenize
 from intents.goals import ObjectQuery, ReportTopic, Tell
 from intents.grounding import Entity, Grounded, describe, describe_entity, ground
 from intents.state import RobotState
+from intents.wording import sentence_case
 
 _SKILLS = (
     ("go_to", "go somewhere", "go to the kitchen"),
@@ -55,10 +56,10 @@ def told(goal: Tell, state: RobotState) -> str | None:
         return f"I have seen {sought} at the {query.at}." if query.at else None
     things = [e for e in known if e.id in found.ids]
     if goal.property == "name":
-        return f"{_capital(listing([_name(e) for e in things], 'and'))}."
+        return f"{sentence_case(listing([_name(e) for e in things], 'and'))}."
     says = _PROPERTIES.get(goal.property)
     parts = [f"{_name(e)} {said}" for e in things if says and (said := says(e))]
-    return f"{_capital(listing(parts, 'and'))}." if len(parts) == len(things) else None
+    return f"{sentence_case(listing(parts, 'and'))}." if len(parts) == len(things) else None
 
 
 def _extent(entity: Entity) -> str:
@@ -100,7 +101,7 @@ def _where(query: ObjectQuery, state: RobotState) -> str | None:
     )  # fmt: skip
     known = [e for e in state.entities if e.id in ids]
     told = [said for e in known if (said := _whereabouts(e))]
-    return f"{_capital(listing(told, 'and'))}." if told else None
+    return f"{sentence_case(listing(told, 'and'))}." if told else None
 
 
 def _placeless(query: ObjectQuery) -> ObjectQuery:
@@ -135,10 +136,6 @@ def _spot(entity: Entity) -> str:
 
 def _name(entity: Entity) -> str:
     return f"the {describe_entity(entity)}"
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
 
 
 def _holding(state: RobotState) -> str:

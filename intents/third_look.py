@@ -14,6 +14,7 @@ from intents.doubts import (
     QUITE_SURE,
     SURE,
     SURER,
+    agree,
     is_by_the_way,
     needed,
     offers,
@@ -61,11 +62,12 @@ from intents.second_look import (
 LIKELY, HEARD = 0.35, 0.3
 """From the first on the network's reading is asked about, where the grammar could not read every
 word, and the network itself is surer of its words than the second."""
-KEPT, DOUBTED = 0.55, 0.3
+KEPT, HELD, DOUBTED = 0.55, 0.5, 0.3
 """What the grammar read from every word stays from the first on; below the second, where the
 network's reading is no likelier than `SURE`, it is asked about."""
-TRUSTED = 0.8
-"""From here on the grammar's reading is acted on without asking the network."""
+TRUSTED, CAREFUL = 0.8, 0.7
+"""From here on the grammar's reading is acted on without asking the network; from the second on
+what is never given up for the network's."""
 _REFERS = lexicon.words(
     "it its this that these those them they he him his she her there then one ones same again back "
     "rest other others another else more both all"
@@ -75,6 +77,7 @@ _TAKEN_BACK = lexicon.words("no nope instead rather")
 """With these the grammar knows what takes whose place, and the network seldom."""
 _KEPT = (Say, Tell, Answer, If)
 """What is read word for word, or checked part by part."""
+_SPOKEN = (Say, Answer)
 _ON_PURPOSE = ("as said to", "I do only what I am asked for")
 """What the grammar remarks where it keeps from an order what is another's, or forbidden."""
 _ALTERNATIVE, _ACT_MISSING = " or ", "What shall I do with"
@@ -117,10 +120,11 @@ def third_look(
     """
     names = _names(text, index)
     least = _least(text, names, before, follows=follows)
-    if least >= NEVER:
+    is_read = isinstance(before.outcome, Goals)
+    if least >= NEVER and not (is_read and _is_weighed(text, names, before, follows=follows)):
         return before
     own = _side(before, "whole", sight(text, index))
-    if isinstance(before.outcome, Goals) and alone(text, names, own, fields) >= TRUSTED:
+    if is_read and alone(text, names, own, fields) >= (TRUSTED if least < NEVER else CAREFUL):
         return before
     found = looked(text, index, before, read, hear)
     if found is None or _leaves_one_out(text, found[0]):
@@ -128,18 +132,40 @@ def third_look(
     both, other = found
     kept, likely = choice(both, fields)
     said = None if other is None or not isinstance(other.outcome, Goals) else other
-    is_read = isinstance(before.outcome, Goals)
-    if is_read and kept >= KEPT:
+    if is_read and kept >= (KEPT if least < NEVER else HELD):
         return before
     if said and likely >= needed(text, index, before, both, least=least):
         return _taken(said, both)
     if is_read:
-        return _asked(text, before, "I am not sure that I got that") if kept < DOUBTED else before
+        return _doubted(text, before, said, both, sure=(kept, likely), least=least)
     small = all(isinstance(goal, _SMALL_TALK) for goal in both.other.goals)
     asks = least <= SURE and not small and not offers(before)
     if said and asks and likely >= LIKELY and both.likely >= HEARD:
         return _asked(text, said, "I did not get every word")
     return before
+
+
+def _doubted(
+    text: str,
+    before: Attempt,
+    said: Attempt | None,
+    both: Both,
+    *,
+    sure: tuple[float, float],
+    least: float,
+) -> Attempt:
+    """What the grammar read from every word, as a question where it is hardly what was meant.
+
+    What is never given up is asked about only where the network says something else.
+    """
+    kept, likely = sure
+    if least >= NEVER and (said is None or agree(both)):
+        return before
+    if least < NEVER and kept >= DOUBTED:
+        return before
+    if said and likely > kept and likely >= LIKELY and least >= NEVER:
+        return _asked(text, said, "I am not sure that I got that")
+    return _asked(text, before, "I am not sure that I got that")
 
 
 def _names(text: str, index: NameIndex) -> list[Name]:
@@ -197,6 +223,18 @@ def _least(text: str, names: Sequence[Name], before: Attempt, *, follows: bool) 
     return SURE if before.goals or not is_settled(text, before) else NEVER
 
 
+def _is_weighed(text: str, names: Sequence[Name], before: Attempt, *, follows: bool) -> bool:
+    """Whether what the grammar read may be asked about, though it is never given up.
+
+    No message is: the network often puts it otherwise; nor a few words that are plainly put.
+    """
+    says = any(isinstance(goal, _SPOKEN) for goal in each(before.goals))
+    if says or _refers(text, follows=follows) or not is_known(before.goals):
+        return False
+    said = [name.said for name in names]
+    return not (is_plain(text) and is_plainly_put(_GREETING.sub("", text), said, strange=_STRANGE))
+
+
 def _is_kept(text: str, before: Attempt) -> bool:
     """Whether what the grammar read is never given up: what is said word for word, say."""
     outcome = before.outcome
@@ -210,8 +248,11 @@ def _is_plain(text: str, names: Sequence[Name], before: Attempt, *, follows: boo
     words, said = words_in(text), [name.said for name in names]
     beside = len(before.goals) > 1 and any(map(is_by_the_way, before.goals))
     plain = is_plainly_put(_GREETING.sub("", text), said, strange=_STRANGE) and not beside
-    refers = follows and not _REFERS.isdisjoint(words)
-    return refers or plain or not _TAKEN_BACK.isdisjoint(words)
+    return _refers(text, follows=follows) or plain or not _TAKEN_BACK.isdisjoint(words)
+
+
+def _refers(text: str, *, follows: bool) -> bool:
+    return follows and not _REFERS.isdisjoint(words_in(text))
 
 
 def _least_on_purpose(names: Sequence[Name], before: Attempt) -> float:

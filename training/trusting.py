@@ -12,7 +12,7 @@ from intents.parser import first_look
 from intents.second_look import Attempt, is_settled, looks_at
 from training.learning import Example
 from training.marked import Marked
-from training.sameness import same
+from intents.sameness import same
 
 
 def readings(sentence: Marked, fields: Fields) -> list[Example]:

@@ -10,13 +10,13 @@ from msgspec.structs import replace
 
 from intents.english.clauses.compounds import acts_at, condition
 from intents.english.clauses.conditions import IF, as_soon_as, mention
+from intents.english.clauses.messages import content_end
 from intents.english.clauses.openings import (
     begins_clause,
     nothing_end,
     otherwise_end,
     skip_openings,
 )
-from intents.english.clauses.saying import content_end
 from intents.english.clauses.wishes import asks_end
 from intents.english.corrections import named_retraction_end, retraction_end
 from intents.english.phrases.complements import connector_end, told_later

@@ -3,7 +3,7 @@
 import re
 from contextlib import suppress
 
-from intents.english.clauses.openings import otherwise_end, skip_openings
+from intents.english.clauses.openings import other_case, otherwise_end, skip_openings
 from intents.english.clauses.statements import mention_phrase
 from intents.english.corrections import correction, taken_back
 from intents.english.joining import as_wished, instead, joined, or_else, same_object, sought_there
@@ -182,7 +182,8 @@ def _hangs_on(text: Text, at: int) -> bool:
 def _ends_inner(text: Text, at: int) -> bool:
     if text.word(at) == FULL_STOP:
         return True
-    return bool(otherwise_end(text, at + (text.word(at) == COMMA)))
+    link = at + (text.word(at) == COMMA)
+    return bool(otherwise_end(text, link)) or other_case(text, at) is not None
 
 
 def _once(goals: list[Goal]) -> bool:

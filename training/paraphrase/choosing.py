@@ -23,7 +23,7 @@ from intents.third_look import looked
 from intents.vocabulary import Vocabulary
 from training.learning import Example, learn
 from training.marked import Marked
-from training.sameness import same
+from intents.sameness import same
 
 _AT_ONCE = 20
 """So many sentences are read by a process before it is given others."""

@@ -11,7 +11,7 @@ from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import NotUnderstood, Unclear
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
-from intents.english.words.lexicon import LOCATIVES, phrases
+from intents.english.words.lexicon import LOCATIVES, phrases, words
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
@@ -64,6 +64,16 @@ _THEREON = phrases("on it,on them,in it,in them,there,on top,on top of it,inside
 _GONE = ("missing", "gone", "absent", "away")
 _IN_HAND = phrases("in your hand,in your hands,in the hand,in your gripper,in hand,with you")
 _STATES = ("open", "closed", "on", "off", "empty", "full")
+_BEING = words(
+    "standing sitting lying hanging left switched turned set still wide half currently always "
+    "plugged kept just"
+)
+"""What adds nothing to a state or a place behind it: "is *standing* open", "is *switched* on"."""
+_OPPOSITES = {
+    one: other
+    for pair in (("open", "closed"), ("on", "off"), ("empty", "full"))
+    for one, other in (pair, pair[::-1])
+}
 _SEE = ("see", "find", "spot", "locate", "notice", "detect", "recognize")
 _HOLD = ("have", "hold", "holding", "carry", "carrying", "grasp")
 
@@ -98,6 +108,16 @@ def mention(holds: Condition, scope: Scope, *, met: bool = True) -> None:
             scope.mention(one.object)
         elif isinstance(one, State) and {n.kind for n in scope.index.exact(one.what)} == {"place"}:
             scope.mention(one.what)  # if the drawer is open, put it in there
+
+
+def is_complement(one: Condition, other: Condition) -> bool:
+    """Whether one condition holds just where the other does not: on, off; there, gone."""
+    if isinstance(one, State) and isinstance(other, State) and one.what == other.what:
+        opposite = _OPPOSITES.get(one.state) == other.state and one.negated == other.negated
+        return opposite or (one.state == other.state and one.negated != other.negated)
+    if isinstance(one, Present | Holding) and type(one) is type(other):
+        return one.negated != other.negated and replace(one, negated=other.negated) == other
+    return False
 
 
 def _asked(text: Text, at: int, scope: Scope) -> tuple[Condition, int] | None:
@@ -350,6 +370,7 @@ def _predicate(
     text: Text, at: int, phrase: NounPhrase, scope: Scope, negated: bool
 ) -> tuple[Condition, int]:
     """What is said of a thing behind "is": *on the table*; *open*; *there*; *gone*."""
+    at += text.word(at) in _BEING and _is_said_of(text, at + 1)
     word = text.word(at)
     if word in ("there", "here") and scope.place and not phrase.places:
         phrase.places.append(Locative(None, NounPhrase(at, at + 1, noun="there", said="there")))
@@ -369,6 +390,11 @@ def _predicate(
     if phrase.end == at:
         raise NotUnderstood(f"I cannot check whether something is “{word}”")
     return _is_present(phrase, scope, negated), phrase.end
+
+
+def _is_said_of(text: Text, at: int) -> bool:
+    """Whether a state, or where something is, begins at a word: standing *open*."""
+    return text.word(at) in (*_STATES, *_THERE) or text.lookup(LOCATIVES, at) is not None
 
 
 def _there_end(text: Text, at: int) -> int | None:

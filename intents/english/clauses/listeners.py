@@ -3,7 +3,7 @@
 from intents.english.clauses.markers import marker_end
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.phrase import NounPhrase
-from intents.english.phrases.referents import Scope, is_person, to_person
+from intents.english.phrases.referents import Scope, is_person, to_person, to_place
 from intents.english.trouble import NotUnderstood, Unclear
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE
@@ -52,6 +52,16 @@ def listener_at(text: Text, at: int, scope: Scope) -> NounPhrase | None:
         return None
     phrase = noun_phrase(text, at)
     return phrase if phrase and is_person(phrase, scope) else None
+
+
+def listening_place(text: Text, at: int, scope: Scope) -> tuple[Person, int] | None:
+    """Announce to *the kitchen* that ...: whoever is there, where a message follows."""
+    phrase = noun_phrase(text, at) if text.word(at) in lexicon.DETERMINERS else None
+    if phrase is None or not phrase.name("room", "place") or phrase.name("object", "person"):
+        return None
+    know = text.words[phrase.end : phrase.end + 1] == ["know"]
+    follows = text.word(phrase.end + know) in ("that", QUOTE) or know
+    return (Person(at=to_place(phrase, scope)), phrase.end + know) if follows else None
 
 
 def last_listener(text: Text, at: int, end: int, scope: Scope) -> tuple[Person | None, int]:

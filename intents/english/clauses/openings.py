@@ -17,6 +17,7 @@ _IF_NOT = lexicon.phrases(
     "if no,if it is not,if they are not,if there is not,if there are not,if there is none,"
     "if there are none,if there is not one,if there is not any,if it is not there,"
     "if they are not there,if you do not,if you can not,if he is not,if she is not,"
+    "if is not,if is not there,if not there,"
     "if he is not there,if she is not there,if nobody is,if nobody is there,if no one is there"
 )
 """These are "otherwise" only where nothing follows: "if it is not on the table" is another."""
@@ -25,7 +26,10 @@ _NOTHING = lexicon.phrases(
     "nothing,do nothing,just do nothing,do not do anything,do not bother,do not,leave it,"
     "leave it be,leave them,never mind,forget it,forget about it,leave it there,"
     "leave it where it is,leave everything as it is,let it be,nothing at all,"
-    "do nothing at all,do not worry"
+    "do nothing at all,do not worry,do not worry about it,do not worry about that,"
+    "leave it as it is,"
+    "leave it alone,do not bother with it,do not bother about it,ignore it,skip it,that is fine,"
+    "it is fine,no worries,no matter,no harm done,never mind it,stay where you are,all is well"
 )
 _NEED_NOT = ["you", "need", "not"]
 _URGING = lexicon.words("do only simply merely")
@@ -78,6 +82,16 @@ def otherwise_end(text: Text, at: int) -> int | None:
     if asked and text.word(asked) in (COMMA, "then"):
         return asked
     return text.phrase_end(lexicon.ELSE, at)
+
+
+def other_case(text: Text, at: int) -> int | None:
+    """Where "if" stands that begins another case: "..., *and if* it is off, ..."."""
+    start = at
+    while text.word(start) in (COMMA, FULL_STOP, "and", "but") and start < len(text):
+        start += 1
+    begins = text.word(start) in ("if", "should") and text.word(start + 1) != "you"
+    signed = begins and COMMA in text.words[start:] and start > at
+    return start if signed else None
 
 
 def nothing_end(text: Text, at: int) -> int | None:

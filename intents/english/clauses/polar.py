@@ -91,7 +91,7 @@ def _one(text: Text, at: int, scope: Scope, to: Person | None) -> Found | None:
         thing = NounPhrase(start, start, noun="object", said="thing", count=1)
         thing.places.append(Locative(None, phrase))
         return [Find(object=to_object(thing, scope))], phrase.end + 1
-    told = _either(text, phrase, scope, to) or _posed(phrase, scope, to)
+    told = _either(text, phrase, scope, to) or _posed(text, phrase, scope, to)
     if told:
         return told
     end = read_on(text, phrase)
@@ -113,16 +113,18 @@ def _stated(text: Text, at: int, scope: Scope, to: Person | None) -> Found | Non
     end = read_on(text, phrase)
     if not phrase.places and text.word(end) in _HERE:
         return [sought(phrase, scope)], end + 1
-    posed = _posed(phrase, scope, to)
+    posed = _posed(text, phrase, scope, to)
     return posed or (([sought(phrase, scope)], end) if phrase.places else None)
 
 
-def _posed(phrase: NounPhrase, scope: Scope, to: Person | None) -> Found | None:
+def _posed(text: Text, phrase: NounPhrase, scope: Scope, to: Person | None) -> Found | None:
     """Is Ada standing? Of one that is named it is the posture that is asked after."""
     if not (phrase.posture and phrase.name("person")):
         return None
     phrase.posture = None
-    return [Tell(person=to_person(phrase, scope), property="posture", to=to)], phrase.end
+    end = phrase.end + (text.word(phrase.end) in ("up", "down", "upright"))
+    end += text.word(end) in ("yet", "already", "now", "again")
+    return [Tell(person=to_person(phrase, scope), property="posture", to=to)], end
 
 
 def _either(text: Text, phrase: NounPhrase, scope: Scope, to: Person | None) -> Found | None:

@@ -1,12 +1,8 @@
 """Saying, telling and answering: verbs whose complement is words, not things."""
 
-from copy import copy
-
 from msgspec.structs import replace
 
 from intents.english.clauses.asking import answer_told, asking
-from intents.english.clauses.compounds import condition
-from intents.english.clauses.conditions import IF
 from intents.english.clauses.listeners import (
     QUESTION_WORDS,
     TO,
@@ -14,23 +10,28 @@ from intents.english.clauses.listeners import (
     last_listener,
     listener_at,
     listeners,
+    listening_place,
     meant_listener,
     refuse_more,
 )
 from intents.english.clauses.markers import marker_end
-from intents.english.clauses.openings import nothing_end, otherwise_end, skip_openings
+from intents.english.clauses.messages import (
+    before_condition,
+    before_times,
+    content_end,
+    message_start,
+)
+from intents.english.clauses.openings import skip_openings
 from intents.english.clauses.questions import property_question, question
 from intents.english.clauses.self_talk import about_robot, small_talk
 from intents.english.phrases.complements import connector_end, ends_clause
 from intents.english.phrases.noun_phrases import noun_phrase, read_postmodifiers
 from intents.english.phrases.phrase import NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_object, to_person, to_place
-from intents.english.phrases.times import ARRIVED
 from intents.english.reading import Found
 from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE
-from intents.english.words.measures import measure
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import Answer, Count, Find, Goal, Person, Say, Tell
@@ -43,48 +44,6 @@ _LETTERS = lexicon.words(
     "message messages mail mails email emails letter phone phones telephone telephones call calls "
     "tweet chat door doors doorbell bell intercom buzzer"
 )
-
-
-def content_end(text: Text, at: int) -> int:
-    """Where words to be said end: at a full stop, or where another command begins."""
-    end = at
-    while end < len(text) and text.word(end) != FULL_STOP:
-        aside = text.word(end) in ("she", "he", "they") and text.word(end + 1) in ("is", "are")
-        if aside and end > at + 1 and text.word(end - 1) not in lexicon.WH:
-            return end - (text.word(end - 1) == COMMA)
-        if at < end <= at + 2 and text.phrase_end(ARRIVED, end):
-            return end  # say hello when you get to the counter: no words of a greeting
-        after = connector_end(text, end) if text.word(end) != COMMA else end + 1
-        if after and text.word(end) == COMMA:
-            after = connector_end(text, after) or after
-        if after and end > at and (verbs_at(text.words, after) or _is_otherwise(text, after)):
-            return end
-        end += 1
-    return end
-
-
-def _is_otherwise(text: Text, at: int) -> bool:
-    """Say supper is ready; *if she is not there, come back*: no part of what is to be said."""
-    start = otherwise_end(text, at)
-    if start is None and text.phrase_end(IF, at):
-        start = at
-        while start < len(text) and text.word(start) not in (COMMA, FULL_STOP):
-            start += 1
-        if "not" not in text.words[at:start] or text.word(start) != COMMA:
-            return False
-    if start is None:
-        return False
-    act = skip_openings(text, start)
-    return bool(nothing_end(text, start) or verbs_at(text.words, act))
-
-
-def _before_times(text: Text, at: int, end: int) -> int:
-    """Say hello *twice*: the words to be said end before how often."""
-    for start in range(max(at + 1, end - 3), end):
-        amount = measure(text.words, start)
-        if amount and amount.kind == "times" and amount.end == end:
-            return start
-    return end
 
 
 def _is_broken_off(text: Text, at: int) -> bool:
@@ -109,22 +68,18 @@ def say(text: Text, at: int, scope: Scope) -> Found:
     itself = about_robot(text, at) if text.word(at - 1) in ("state", "declare") else None
     if itself:
         return itself  # state your position
-    to = None
-    if text.word(at) in TO:
-        first = listener_at(text, at + 1, scope)
-        if first:
-            first = meant_listener(text, first, scope)
-            to, at = to_person(first, scope), first.end
+    to, at = _addressed(text, at, scope) if text.word(at) in TO else (None, at)
     if to is not None and _is_broken_off(text, at):
         return [Find(person=to)], at
+    at = message_start(text, at) if to is not None else at
     asked = _asked(text, at, scope)
     if asked and isinstance(asked[0][0], Count):
         return _to_listener(text, asked, scope)
     if to is not None and text.word(at) == COMMA and verbs_at(text.words, at + 1):
         return [Find(person=to)], at
     at += text.word(at) == "that"
-    end = _before_times(text, at, content_end(text, at))
-    stop = end = _before_condition(text, at, end, scope)
+    end = before_times(text, at, content_end(text, at))
+    stop = end = before_condition(text, at, end, scope)
     addressed = addressed_end(text, at, end, scope) if to is None else None
     if to is None:
         named, end = addressed or (end, end)
@@ -138,6 +93,15 @@ def say(text: Text, at: int, scope: Scope) -> Found:
         to = Person(at=here)
     what = text.tokens[at].raw if text.word(at) == QUOTE else text.raw(at, stop)
     return [Say(what=what, to=to)], end
+
+
+def _addressed(text: Text, at: int, scope: Scope) -> tuple[Person | None, int]:
+    """To whom something is said behind "to", and where the words begin."""
+    first = listener_at(text, at + 1, scope)
+    if first:
+        first = meant_listener(text, first, scope)
+        return to_person(first, scope), first.end
+    return listening_place(text, at + 1, scope) or (None, at)
 
 
 def _quotes(text: Text, at: int, scope: Scope) -> Found:
@@ -158,27 +122,6 @@ def _quotes(text: Text, at: int, scope: Scope) -> Found:
     return goals, end
 
 
-_FINDS_OUT = lexicon.words("check see look ask out know wonder remember")
-
-
-def _before_condition(text: Text, at: int, end: int, scope: Scope) -> int:
-    """Say dinner is ready *if Ada is in the kitchen*: what can be checked is a condition.
-
-    Tell Leo to check *if it is there*: that is what he is to find out.
-    """
-    for link in range(at + 1, end):
-        start = text.phrase_end(IF, link)
-        if start is None or (text.word(link) == "if" and text.word(link - 1) in _FINDS_OUT):
-            continue
-        try:
-            _, stop = condition(text, start, copy(scope))
-        except ReadingError:
-            continue
-        if stop >= end:
-            return link
-    return end
-
-
 def _asked(text: Text, at: int, scope: Scope) -> Found | None:
     """What is to be said as a question to be answered, if it is one."""
     try:
@@ -191,7 +134,8 @@ def _place_of_speech(text: Text, at: int, end: int, scope: Scope) -> tuple[int, 
     """Say the time *in the kitchen*: the place where it is to be said."""
     for start in range(at + 1, end):
         place = text.lookup(lexicon.LOCATIVES, start)
-        stated = text.word(start - 1) in ("am", "is", "are", "was", "were", "be")
+        doing = text.word(start - 1).endswith("ing")  # he is waiting in the hall
+        stated = text.word(start - 1 - doing) in ("am", "is", "are", "was", "were", "be", "'s")
         if stated and text.word(at) not in lexicon.WH:
             continue
         if place and place[0] in (None, "in"):
@@ -218,7 +162,11 @@ def _with_listener(goal: Goal, person: Person) -> Goal:
 
 def tell(text: Text, at: int, scope: Scope) -> Found:
     """Tell Ada and Emil that lunch is ready: first the one, then the other."""
-    everyone = listeners(text, at + (text.word(at) in TO), scope)
+    begin = at + (text.word(at) in TO)
+    room = listening_place(text, begin, scope)
+    if room is not None:
+        return _tell(text, room[1], room[0], scope)
+    everyone = listeners(text, begin, scope)
     if len(everyone) < _SEVERAL:
         return _tell(text, at, None, scope)
     end = everyone[-1].end
@@ -333,11 +281,10 @@ def _result_end(text: Text, at: int) -> int | None:
 
 def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Found:
     """Tell Julia what day it is; tell her the following: ..."""
-    if text.words[at : at + 2] == ["the", "following"] and text.word(at + 2) in (COMMA, FULL_STOP):
-        at += 3
+    at = message_start(text, at)
     if text.word(at) in ("and", "or"):
         refuse_more(text, at)
-    end = _before_condition(text, at, content_end(text, at), scope)
+    end = before_condition(text, at, content_end(text, at), scope)
     if end == at:
         raise Unclear("What shall I tell?")
     stop, here = _place_of_speech(text, at, end, scope)

@@ -79,6 +79,9 @@ def told_end(text: Text, at: int) -> int | None:
 def _obliges(text: Text, at: int, verb: int) -> bool:
     """It *should* be the red one; but: I *shall* be in the hall."""
     says = text.words[verb : verb + 3]
+    thing = text.word(verb) in ("need", "needs") and text.word(verb + 1) in ("it", "them")
+    if thing and (verb + 2 >= len(text) or text.word(verb + 2) in (COMMA, FULL_STOP)):
+        return False  # Leo still needs it
     mine = text.word(at) in ("i", "we") and says[:2] in (["shall", "be"], ["should", "be"])
     return not mine and bool(_OBLIGES.intersection(says))
 

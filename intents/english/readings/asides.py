@@ -49,7 +49,6 @@ _KEEPS_AWAY = lexicon.phrases(
     "keep clear of,steer clear of,keep your distance from,keep your hands off,stay outside,"
     "keep well away from,do not go near,do not go into,do not go in,do not enter,do not come near"
 )
-_PUTS = lexicon.words("put place set lay stow store stand drop dump stash stick shove")
 _ONTO = lexicon.words("on onto in into to under behind beside near at inside")
 _SAFE = lexicon.words(
     "spill spilling drop dropping break breaking hit hitting bump bumping anything hurt scratch "
@@ -179,7 +178,7 @@ def forbidden(sentence: Sentence, at: int) -> Found | None:
 
 def _onto(text: Text, start: int, end: int) -> int | None:
     """Don't put the cup *on the shelf*: it may be put elsewhere, and is not there."""
-    if text.word(start) not in _PUTS:
+    if text.word(start) not in lexicon.PUTTING:
         return None
     named = (n for n in range(start + 1, end - 1) if text.name_at(n))
     thing = next(named, None)

@@ -1,11 +1,13 @@
 """Conditions before what hangs on them: "if the cup is not there, bring the mug"."""
 
+from copy import copy
+
 from msgspec.structs import replace
 
 from intents.english.clauses.compounds import condition
-from intents.english.clauses.conditions import IF, as_soon_as, mention
+from intents.english.clauses.conditions import IF, as_soon_as, is_complement, mention
 from intents.english.clauses.coordination import link_at
-from intents.english.clauses.openings import nothing_end, otherwise_end
+from intents.english.clauses.openings import nothing_end, other_case, otherwise_end
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.times import tells_when
 from intents.english.reading import Found, Sentence
@@ -59,7 +61,7 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     skipped = end
     while text.word(skipped) in (COMMA, FULL_STOP) and skipped < len(text):
         skipped += 1
-    otherwise = otherwise_end(text, skipped)
+    otherwise = otherwise_end(text, skipped) or _complement_end(sentence, end, holds)
     other: list[Goal] = []
     if otherwise:
         if sentence.scope.object == spoken_of:
@@ -69,6 +71,19 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     if unless:
         then, other = other, then
     return [If(condition=holds, then=tuple(then), else_=tuple(other))], end
+
+
+def _complement_end(sentence: Sentence, at: int, holds: Condition) -> int | None:
+    """... ; *if it is off, ...*: where the case ends to be told that is left of the one before."""
+    text = sentence.text
+    start = other_case(text, at)
+    if start is None:
+        return None
+    try:
+        case, end = condition(text, start + 1, copy(sentence.scope))
+    except ReadingError:
+        return None
+    return end + (text.word(end) == COMMA) if is_complement(holds, case) else None
 
 
 def _all_was_read(sentence: Sentence, end: int) -> None:

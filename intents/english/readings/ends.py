@@ -59,8 +59,10 @@ _PASSIVE = lexicon.phrases(
 )
 _BELONGS = lexicon.phrases(
     "goes,go,belongs,belong,should go,has to go,have to go,needs to go,need to go,must go,"
-    "should be,has to be,must be,needs to be,ought to go,is supposed to go"
+    "should be,has to be,must be,needs to be,ought to go,is supposed to go,is to go,are to go,"
+    "are supposed to go,is meant to go,are meant to go,can go,could go,is going,are going,gotta go"
 )
+_ALL_THINGS = lexicon.words("everything all thing things stuff")
 _SEVERAL = 2
 
 
@@ -193,7 +195,10 @@ def _belongs(
     """
     text, scope = sentence.text, sentence.scope
     start = text.phrase_end(_BELONGS, phrase.end)
-    if start is None or not phrase.name("object", "category") or phrase.is_person:
+    everything = phrase.said in _ALL_THINGS and bool(phrase.places)  # everything on the bar
+    if start is None or phrase.is_person:
+        return None
+    if not (everything or phrase.name("object", "category")):
         return None
     where = _where(sentence, start)
     if where is None:

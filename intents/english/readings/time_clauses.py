@@ -1,7 +1,7 @@
 """When: "before you go there, ...", "when you are in the lab, ...", "in ten seconds, ..."."""
 
+from intents.english.clauses.messages import content_end
 from intents.english.clauses.openings import begins_clause, skip_openings
-from intents.english.clauses.saying import content_end
 from intents.english.clauses.verb_clauses import framed, read_verb
 from intents.english.phrases.complements import Complement, ends_clause, read_complements
 from intents.english.phrases.referents import to_place
@@ -18,7 +18,9 @@ _TOLD = lexicon.phrases(
     "until my signal,until my command,until my word,until someone tells you,"
     "until somebody tells you"
 )
-_GIVE_IT = lexicon.phrases("give it,take,give me")
+_GIVE_IT = lexicon.phrases(
+    "give it,take,give me,give them,give him,give her,leave it,allow,allow it,let it be for"
+)
 _NOT = lexicon.phrases("do not,do not you,never,you do not,you must not,must not")
 _IN_A_WHILE = lexicon.words("in after")
 

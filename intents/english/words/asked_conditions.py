@@ -1,11 +1,13 @@
 """A question with its order is a condition: "no eggs in the fridge? tell Leo" is "if there are no".
 
+So is "see whether the gate is open, and if it is, close it", of what can be open, on or full.
+
 Nobody waits for the answer: who asks whether something is so and says at once what to do then
 says it for that case only. A question with a verb of its own ("is there an egg? tell me") or with a
 question word is one.
 """
 
-from intents.english.words.lexer import FULL_STOP, Token
+from intents.english.words.lexer import COMMA, FULL_STOP, Token
 from intents.english.words.lexicon import AUXILIARIES, DETERMINERS, LOCATIVES, WH, words
 from intents.english.words.names import NameIndex
 from intents.english.words.verbs import FIRST_WORDS
@@ -15,6 +17,42 @@ _NONE = words("no any some")
 _OPENS = words("so then please and just")
 _LONGEST = 12
 _REST = words("left remaining there around")
+
+
+_CHECKS = words("see check look find")
+_STATES = words("open closed shut on off empty full running locked")
+_SO = words("so it they that is are the case then yes")
+
+
+def checked_states(tokens: list[Token]) -> list[Token]:
+    """See whether the gate is open, and if so, close it: *if the gate is open*, close it."""
+    said = [token.text for token in tokens]
+    at = next((n for n, word in enumerate(said[:-6]) if word in _CHECKS), None)
+    begun = None if at is None else _asked_begin(said, at)
+    again = [n for n, word in enumerate(said) if word == "if" and begun and n > begun + 2]
+    if at is None or begun is None or not again:
+        return tokens
+    close = again[0]
+    while said[close - 1] in {"and", COMMA, FULL_STOP}:
+        close -= 1
+    taken_up = again[0] + 1
+    while taken_up < len(said) and said[taken_up] in _SO:
+        taken_up += 1
+    state = said[close - 1]
+    taken_up += said[taken_up : taken_up + 1] == [state]
+    alone = {"and", COMMA, FULL_STOP, "if"}.isdisjoint(said[begun:close])
+    order = taken_up + (said[taken_up : taken_up + 1] == [COMMA])
+    ordered = order < len(said) and said[order] in FIRST_WORDS
+    if state not in _STATES or not alone or taken_up == again[0] + 1 or not ordered:
+        return tokens
+    link = Token(COMMA, ",")
+    return [*tokens[:at], Token("if", ""), *tokens[begun:close], link, *tokens[order:]]
+
+
+def _asked_begin(said: list[str], at: int) -> int | None:
+    """Where begins what is to be seen: see *whether*, find out *if*."""
+    start = at + 1 + (said[at + 1] == "out")
+    return start + 1 if said[start] in ("if", "whether") else None
 
 
 def conditional_questions(tokens: list[Token], index: NameIndex) -> list[Token]:

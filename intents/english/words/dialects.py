@@ -60,6 +60,7 @@ _PREPOSITIONS: dict[lexicon.Phrase, lexicon.Phrase] = {
     ("subsequently",): ("then",),
     ("but", "no", "the"): ("but", "not", "the"), ("but", "nae", "the"): ("but", "not", "the"),
     ("shalt",): ("shall",), ("wilt",): ("will",), ("canst",): ("can",), ("dost",): ("do",),
+    ("who", "all"): ("who",),
     ("remain", "on", "one"): ("stand", "on", "one"),
     ("stay", "on", "one"): ("stand", "on", "one"), ("keep", "on", "one"): ("stand", "on", "one"),
 }  # fmt: skip

@@ -10,16 +10,20 @@ from intents.english.words.lexicon import DETERMINERS, LOCATIVES, SUPERLATIVES, 
 from intents.english.words.names import NameIndex
 
 _LIES = unlisted("lying laying standing sitting hanging placed located being situated")
+_WARMS = unlisted("warming heating cooling starting revving firing")
+_WISHES = (("i", "want"), ("i", "need"), ("we", "want"), ("we", "need"))
 _STATES = {"having": "have", "wanting": "want", "needing": "need", "liking": "like"}
 _BE = unlisted("am are is")
 _SHOWS = unlisted("show point indicate")
 _TAKES = unlisted("take bring fetch give get pick choose select")
+_COUNTS = unlisted("one two three four five a an some")
+_LINKS = unlisted("that which who where when what if is are")
 _LONGEST = 3
 
 
 def in_english_order(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens in the order that the grammar knows."""
-    tokens = _verb_second(_pointed(_stated(tokens)), index)
+    tokens = _verb_second(_pointed(_wished_last(_started(_stated(tokens)))), index)
     for at in range(len(tokens) - 3, -1, -1):
         tokens = _described_ahead(tokens, at, index) or _chosen_from(tokens, at, index) or tokens
     return tokens
@@ -40,6 +44,29 @@ def _stated(tokens: list[Token]) -> list[Token]:
         else:
             plain.append(token)
     return plain
+
+
+def _started(tokens: list[Token]) -> list[Token]:
+    """Get the oven *warming up*: going."""
+    said = [token.text for token in tokens]
+    for at in range(2, len(said) - 1):
+        begins = said[at] in _WARMS and said[at + 1] == "up" and "get" in said[:at]
+        if begins and said[at - 1] not in _BE:
+            raw = f"{tokens[at].raw} {tokens[at + 1].raw}"
+            return [*tokens[:at], Token("going", raw), *tokens[at + 2 :]]
+    return tokens
+
+
+def _wished_last(tokens: list[Token]) -> list[Token]:
+    """*One cup of tea I want*: I want one cup of tea."""
+    said = [token.text for token in tokens]
+    ends = [n for n, word in enumerate(said) if word in (COMMA, FULL_STOP)]
+    close = ends[0] if ends else len(said)
+    wish = tuple(said[close - 2 : close])
+    first = said[:1] and (said[0] in DETERMINERS or said[0] in _COUNTS)
+    if wish not in _WISHES or not first or not _LINKS.isdisjoint(said[1 : close - 2]):
+        return tokens
+    return [*tokens[close - 2 : close], *tokens[: close - 2], *tokens[close:]]
 
 
 def _verb_second(tokens: list[Token], index: NameIndex) -> list[Token]:

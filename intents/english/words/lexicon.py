@@ -112,11 +112,14 @@ GENDERS: dict[str, Literal["male", "female"]] = {
     "females": "female",
 }  # fmt: skip
 PERSON_NOUNS = words(
-    "person people persons someone somebody anyone anybody everyone everybody individual "
+    "person people peoples peeps persons someone somebody anyone anybody everyone "
+    "everybody individual "
     "individuals human humans guest guests visitor visitors child children kid kids elder elders "
     "adult adults customer customers friend friends folk folks colleague colleagues stranger "
     "strangers passenger passengers patient patients resident residents"
 )
+PUTTING = words("put place leave set lay stow store stand drop dump stash stick shove")
+"""Behind one of these and a thing it is told where the thing is to go."""
 EVERYONE = words("everyone everybody")
 OPERATOR_WORDS = words("me us myself operator i ourselves")
 OBJECT_NOUNS = words(
@@ -224,6 +227,9 @@ FILLERS = phrases(
     "do it carefully,do so slowly,do so quickly,do so carefully,one more thing,real quick,for real,"
     "if it is no trouble,if it is not too much trouble,maybe,fast,mate,buddy,pal,bro,pretty,"
     "with sugar on top,with a cherry on top,i was thinking,i was wondering,i think,i guess,"
+    "if you have understood,if you have understood me,if you understood,if you understood me,"
+    "if you understood that,if you understand that,if you heard me,if you heard that,"
+    "if you have heard me,if you get me,if you got that,if you get what i mean,if you follow me,"
     "if you understand,if you understand me,if you hear me,if you can hear me,if you are ready,"
     "if you have time,if you have a minute,when you have a minute,while you are at it,"
     "if it is not too much bother,if it is not too much to ask,if that is okay,"
@@ -261,7 +267,8 @@ _OPENINGS = phrases(
     "i would appreciate it if you could,i would appreciate it if you,i want to,you should,"
     "you must,you have to,you need to,you can,you could,you may,you are to,you will,"
     "you are supposed to,i ask you to,i am asking you to,i command you to,i order you to,"
-    "your task is to,your job is to,your mission is to,your goal is to,go ahead and,"
+    "your task is to,your job is to,your mission is to,your goal is to,go ahead and,go on ahead and,"
+    "go right ahead and,"
     "would you be a dear and,be a dear and,would you be so good as to,be so good as to,"
     "be a good robot and,would you be so kind and,would you be kind enough to,be kind enough to,"
     "be so kind as to,be so kind and,do me a favor and,give me a hand and,"

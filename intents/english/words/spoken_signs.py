@@ -13,6 +13,7 @@ _SIGNS = (
     (r"comma", ","),
     (r"new (?:line|paragraph)", "."),
     (r"(?<!\ba )(?<!the )full stop", "."),
+    (r"(?<=[,.] )(?:period|end of(?: message| story)?)(?=\W*$)", "."),
 )
 _SPOKEN = tuple(
     (re.compile(rf"(?<=\w)[,.]?\s+{said}\b(?:\s*[.,!?;]+)?", re.IGNORECASE), sign)

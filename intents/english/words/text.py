@@ -8,8 +8,9 @@ from typing import TypeVar
 
 from intents.english.words.all_over import all_over
 from intents.english.words.appositions import without_appositions
-from intents.english.words.asked_conditions import conditional_questions
+from intents.english.words.asked_conditions import checked_states, conditional_questions
 from intents.english.words.asking import plainly_asked
+from intents.english.words.colloquial import colloquial
 from intents.english.words.contrasts import but_this
 from intents.english.words.courtesy import ADDRESSES, courtesy_end
 from intents.english.words.dialects import in_standard_words
@@ -38,6 +39,7 @@ from intents.english.words.precise import plain_quantities
 from intents.english.words.presence import being_there
 from intents.english.words.purposes import without_purposes
 from intents.english.words.repairs import as_one_marker, repaired
+from intents.english.words.second_thoughts import second_thoughts
 from intents.english.words.singling_out import singled_out
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
 from intents.english.words.superlatives import listed_superlatives
@@ -67,10 +69,10 @@ _ACCOMPANY = words("go come walk stay be is am was wrong matter up do deal along
 """What "with you" belongs to; else it is only taken along."""
 _PREDICATES = words(
     "about around ringing shut closed there here still not gone empty full open closed in on at "
-    "under behind near next missing away wanted needed required needing wanting"
+    "under behind near next missing away wanted needed required needing wanting "
+    "standing sitting lying hanging left switched turned gonna going blocked locked"
 )
 """What follows "the bottle's" where that is no owner."""
-_RECEIVERS = words("him her me them us want wants")
 _WISHES = phrases(
     "need,want,going to need,going to want,have to have,have got to have,could do with,could use,"
     "could murder,would kill for,wanting,needing,will need,gonna need,any chance of,"
@@ -78,10 +80,7 @@ _WISHES = phrases(
     "me wants,me needs,me want,me need,fancy"
 )
 """How a wish begins whose subject goes without saying: "need a screwdriver here"."""
-_WHATSITS = words("thing thingy whatsit thingummy thingamajig thingamabob doodah gizmo doohickey")
-_MADE = words("close open turn go walk bring take put switch come on off")
 _CASES = words("on onto in into to from off under behind at")
-_AFTER_LEFT = words("in on at to over and") | {COMMA, FULL_STOP}
 _POLITE = words("please thanks")
 _ONCE = words("once when after until before as")
 _FILLER_STARTS = frozenset(phrase[0] for phrase in FILLERS)
@@ -133,7 +132,8 @@ class Text:
         tokens, self.corrections = spelled_out(
             listed_superlatives(_without_name(tokenize(text), self.index)), self.index
         )
-        tokens = in_sentences(without_particles(tokens, self.index), self.index)
+        tokens = without_particles(second_thoughts(tokens), self.index)
+        tokens = in_sentences(tokens, self.index)
         tokens = without_purposes(in_english_order(tokens, self.index), self.index)
         begins = True
         pace = _PACE.search(text)
@@ -165,8 +165,10 @@ class Text:
         flowing = led(laid(whereabouts(fluent(corrected, self.index), self.index)))
         ordered = in_order(hauled(flowing, self.index), self.index)
         plain = singled_out(_without_fillers(ordered, self.index), self.index)
-        plain = _unfinished(unrepeated(being_there(conditional_questions(plain, self.index))))
-        plain = _colloquial(in_standard_words(plain, self.index))
+        plain = _unfinished(
+            unrepeated(being_there(conditional_questions(checked_states(plain), self.index)))
+        )
+        plain = colloquial(in_standard_words(plain, self.index))
         plain, self.all_over = all_over(plain, self.index, lambda said: _in_message(said, index))
         self.tokens: list[Token] = uninverted(left_behind(plain))
         self.words: list[str] = [t.text for t in self.tokens]
@@ -373,62 +375,7 @@ def _said(tokens: list[Token]) -> str:
     return " ".join(token.raw for token in tokens if token.raw)
 
 
-def _colloquial(tokens: list[Token]) -> list[Token]:
-    """Put *the lot* there: them; where is it *at*; *make close* the door; *the*, the cup."""
-    kept: list[Token] = []
-    words = [t.text for t in tokens]
-    for at in range(len(words) - 3, -1, -1):
-        if words[at] in _WHATSITS and words[at + 1] == COMMA and words[at + 2] in DETERMINERS:
-            begin = at - (words[at - 1] in DETERMINERS)
-            del tokens[begin : at + 2]  # the thing, the pipette
-    words = [t.text for t in tokens]
-    for at, token in enumerate(tokens):
-        last = kept[-1].text if kept else FULL_STOP
-        begins = last in (*_BEFORE_VERBS, "after", "before")
-        broken_off = token.raw in DASHES
-        if last in ("the", "a", "an", "my") and token.text in (COMMA, last) and not broken_off:
-            continue  # the, um, the stapler
-        if token.text in ("that", "this") and _points_there(words, at):
-            continue  # what is that on the bench
-        if token.text == "left" and _remains(words, at):
-            continue  # what have we got left
-        if token.text == "lot" and last == "the" and words[at + 1 : at + 2] != ["of"]:
-            kept[-1] = Token("them", f"{kept[-1].raw} {token.raw}")
-        elif token.text == "1" and at + 1 == len(words) and last in _RECEIVERS:
-            kept += [Token("a", ""), Token("one", token.raw)]
-        elif (
-            (
-                token.text == "make"
-                and begins
-                and words[at + 1 : at + 2]
-                and (
-                    words[at + 1] in _MADE
-                    and (words[at + 1] != "turn" or words[at + 2 : at + 3] == ["to"])
-                )
-            )
-            or (token.text == "you" and at == 1 and words[0] in _MADE and words[2:3] != ["go"])
-            or (token.text == "at" and at + 1 == len(words) and "where" in words[:3])
-        ):
-            continue
-        else:
-            kept.append(token)
-    return kept
-
-
-def _points_there(words: list[str], at: int) -> bool:
-    asked = words[at - 2 : at] == ["what", "is"]
-    return asked and words[at + 1 : at + 2] in (["on"], ["in"], ["under"], ["at"], ["by"], ["over"])
-
-
 _CHECKS = frozenset((look, how) for look in ("check", "see", "look") for how in ("if", "whether"))
-
-
-def _remains(words: list[str], at: int) -> bool:
-    """Whether "left" is what remains: what have we got *left*? Count what we have *left*."""
-    if "if" in words[max(0, at - 7) : at] and "there" in words[max(0, at - 6) : at]:
-        return bool(verbs_at(words, at + 1)) or words[at + 1 : at + 2] in ([COMMA], [])
-    owned = words[at - 1] == "got" or words[at - 2 : at] in (["we", "have"], ["you", "have"])
-    return owned and _AFTER_LEFT.issuperset(words[at + 1 : at + 2])
 
 
 def _adverb_end(words: list[str], at: int) -> int | None:

@@ -10,10 +10,14 @@ _TITLES = lexicon.words(
 )
 
 
+_HONOURS = lexicon.words("sir madam ma'am maam ji bhai sahib saab didi")
+"""What some say behind the name of somebody: "tell Ada madam that ..."."""
+
+
 def without_titles(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens without titles that belong to no name of the world."""
     words = [token.text for token in tokens]
-    if _TITLES.isdisjoint(words):
+    if _TITLES.isdisjoint(words) and _HONOURS.isdisjoint(words):
         return tokens
     kept: list[Token] = []
     at = 0
@@ -25,7 +29,9 @@ def without_titles(tokens: list[Token], index: NameIndex) -> list[Token]:
                 kept.pop()  # a Mr Weber
             at = after
             continue
-        kept.append(tokens[at])
+        behind = words[at] in _HONOURS and at > 0 and _is_person(words, at - 1, index)
+        if not behind or _is_person(words, at, index):
+            kept.append(tokens[at])
         at += 1
     return kept
 

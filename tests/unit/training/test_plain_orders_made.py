@@ -12,7 +12,7 @@ from intents.parser import first_look
 from intents.vocabulary import Vocabulary
 from training.paraphrase.choosing import examples
 from training.paraphrase.plain_orders import plain_orders
-from training.sameness import same
+from intents.sameness import same
 
 MILL = Vocabulary.of(
     objects=["flour sack", "oil can", "lantern"],

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from training.sameness import same
+from intents.sameness import same
 
 CUP = {"name": "Cup"}
 ADA = {"name": "Ada"}
