@@ -8,12 +8,11 @@ asked about.
 """
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from intents.english.faithfulness import CARRYING, numbers, strings
 from intents.english.learnt.choice import Both, Name, lost
-from intents.english.learnt.plainness import plainness
 from intents.english.trouble import Idle
 from intents.english.words import lexicon
 from intents.english.words.lexer import words_in
@@ -29,9 +28,7 @@ from intents.english.words.limits import (
 )
 from intents.english.words.measures import number
 from intents.english.words.names import NameIndex
-from intents.english.words.reporting import is_reported
 from intents.english.words.spelling import GRAMMAR_WORDS
-from intents.english.words.verbs import base_form, verbs_at
 from intents.goals import (
     Cancel,
     Count,
@@ -57,18 +54,19 @@ from intents.mismatches import (
 )
 from intents.outcomes import Goals, Question
 from intents.sameness import same
-from intents.second_look import LOOKING, Attempt, only_asks
+from intents.second_look import Attempt
+from intents.sentence_kind import SentenceKind, kind_of
 
 SURE, SURER, SUREST, NEVER = 0.7, 0.9, 0.95, 2.0
 """From these on the network's reading is acted on: where there is no doubt; where it says how long,
 how far, in which cases or what to say, which a network may well guess; where the grammar sees
 nothing to do in the sentence, or the network itself is not sure of its words; never."""
 QUITE_SURE = 0.85
-"""The same for a sentence whose form is no order's, what the robot is to tell of itself, and a
-name that was taken back."""
+"""The same for a sentence whose form is no order's, what the robot is to tell of itself, and what
+may be said for some cases only."""
 WITNESSED = 0.6
-"""The same where the grammar offers just what the network says: two that know nothing of one another
-were wrong in one of 75, whatever is lost."""
+"""The same where the grammar offers just what the network says: two that know nothing of one
+another were wrong in one of 75, whatever is lost."""
 FOUND = 0.5
 """So sure the network itself has to be of its words, or its reading to be one of the `SUREST`."""
 SHORT = 6
@@ -82,20 +80,16 @@ _TAKES_BACK = re.compile(
 )
 """A name ahead of one of these may have been taken back by one behind it."""
 _TITLE = re.compile(r"^(?:mr|mrs|ms|miss|dr|prof|professor|doctor|sir|madam|uncle|auntie)\.? ")
-_CLAUSES = re.compile(r"[,.;:!?…—–]+|\b(?:so|and|then|but)\b")
 _MEANT = re.compile(r"\bI meant? (?:the|a|an|my|your|our|his|her|this|that)\s+\w", re.IGNORECASE)
 """I mean *the cellar*: what takes another's place, be it known or not."""
 _BY_THE_WAY = (Wait, Stop, Cancel, Pause, Report)
 """What is read out of talk beside an order: "hang on", "never mind", "look"."""
-_ASKS = lexicon.words("please you your me us can could would should must ought let lets let's")
-"""Without one of these, and without a verb at the beginning, a sentence only tells something."""
 _SEVERAL = 2
 _LIMITING = (
     CARRYING | CONDITIONS | TIMES | CALENDAR | DENIALS | CHOICES | QUANTITIES | MEASURES | SPOTS
 ) - lexicon.words("one")
 _POINTING = lexicon.words("it him her them this that these those he she they there")
 _YOU = lexicon.words("you you're you've your yourself u ur ya ye yer y'all thou")
-_HOW = lexicon.words("how why when who")
 _PEOPLE = lexicon.PERSON_NOUNS | lexicon.GENDERS.keys() | lexicon.words("who nobody")
 
 
@@ -117,7 +111,13 @@ class _Case(NamedTuple):
 
 
 def needed(
-    text: str, index: NameIndex, before: Attempt, both: Both, *, least: float = SURE
+    text: str,
+    index: NameIndex,
+    before: Attempt,
+    both: Both,
+    *,
+    least: float = SURE,
+    outweighs: bool = False,
 ) -> float:
     """How likely the network's reading has to be to be acted on [0..1]; above 1 if it never is.
 
@@ -128,14 +128,21 @@ def needed(
         both: It, and what the network says instead.
         least: How likely it has to be in any case: beyond `SURE` the grammar has its reasons to
             ask or to refuse, and then no word may be lost that limits an order.
+        outweighs: Whether it is likelier than what the grammar reads from every word: then an order
+            may be left out that the grammar saw in it.
     """
     case = _Case(text, index, before, both)
     agreed = agree(both) and bool(offers(before))
     doubts = _DOUBTS if least <= SURE else (*_DOUBTS, *_MORE_DOUBTS)
+    if outweighs:
+        doubts = tuple((doubt, one) for doubt, one in doubts if doubt is not _leaves_out)
     if agreed:
         doubts = tuple((doubt, one) for doubt, one in doubts if doubt not in _WITNESSED)
         least = WITNESSED if least <= SURE else least
-    return max((least, *(one for doubt, one in doubts if doubt(case))))
+    names = [name.said for name in both.names]
+    kind = kind_of(text, case.goals, tells=before.tells, names=names)
+    by_kind = 0.0 if agreed and kind is SentenceKind.UNASKED else _BY_KIND[kind]
+    return max((least, by_kind, *(one for doubt, one in doubts if doubt(case))))
 
 
 def agree(both: Both) -> bool:
@@ -162,43 +169,6 @@ def _is_short(case: _Case) -> bool:
 
 def _is_idle(case: _Case) -> bool:
     return isinstance(case.before.error, Idle)
-
-
-def _only_tells(case: _Case) -> bool:
-    return case.before.tells
-
-
-def _has_no_request(case: _Case) -> bool:
-    """Whether a sentence has no form of a request: "the scarf is needed for the party"."""
-    signs = plainness(case.text, [name.said for name in case.both.names], 1, "")
-    told = not {"begins=article", "begins=name", "begins=about"}.isdisjoint(signs)
-    return told and _ASKS.isdisjoint(case.words) and not any(_ordered(case.text))
-
-
-def _ordered(text: str) -> Iterator[bool]:
-    """For each clause behind the first, whether it begins with an order: "..., *close it*"."""
-    _, *others = (words_in(clause) for clause in _CLAUSES.split(text.lower()))
-    for words in filter(None, others):
-        follows = words[1:2] != [] and words[1] in lexicon.DETERMINERS | lexicon.PRONOUNS
-        yield follows and base_form(words[0]) == words[0] and bool(verbs_at(words, 0))
-
-
-def _is_quoted(case: _Case) -> bool:
-    return is_reported(case.text)
-
-
-def _only_asks(case: _Case) -> bool:
-    """Whether a question was taken for an order: "how would you pick it up?"."""
-    looks = all(isinstance(goal, LOOKING) for goal in each(case.goals))
-    wonders = not looks and case.text.rstrip().endswith("?") and case.words[0] in _HOW
-    return wonders or (only_asks(case.text, case.goals) and not any(_you_do(case.text)))
-
-
-def _you_do(text: str) -> Iterator[bool]:
-    """For each clause, whether it begins as learners ask: "my hands are wet, *you open* it?"."""
-    for words in map(words_in, _CLAUSES.split(text.lower())):
-        verb = words[1] if words[:1] == ["you"] and words[1:] else ""
-        yield bool(verb) and base_form(verb) == verb and bool(verbs_at(words, 1))
 
 
 def _calls_somebody(case: _Case) -> bool:
@@ -348,6 +318,14 @@ def _loses_count(case: _Case) -> bool:
     return False
 
 
+_BY_KIND = {
+    SentenceKind.ORDER: 0.0,
+    SentenceKind.UNASKED: QUITE_SURE,
+    SentenceKind.TOLD: SUREST,
+    SentenceKind.QUESTION: NEVER,
+    SentenceKind.QUOTED: NEVER,
+}
+"""How likely it has to be by the kind of sentence it is a reading of."""
 _DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
     (_is_contrary, NEVER),
     (_loses_count, NEVER),
@@ -355,23 +333,19 @@ _DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
     (_loses_time, NEVER),
     (_leaves_out, NEVER),
     (_is_short, NEVER),
-    (_is_quoted, NEVER),
-    (_only_asks, NEVER),
     (_calls_somebody, NEVER),
     (_is_not_of_itself, NEVER),
     (_loses_name, SUREST),
-    (_only_tells, SUREST),
     (_is_idle, SUREST),
     (_is_unsure, SUREST),
     (_ends_something, SUREST),
     (_passes_on, SURER),
     (_loses_measure, SURER),
     (_loses_limit, QUITE_SURE),
-    (_has_no_request, QUITE_SURE),
     (_tells_of_itself, QUITE_SURE),
 )
 _WITNESSED = (
-    _loses_name, _is_unsure, _has_no_request, _loses_limit, _loses_measure, _passes_on, _points,
+    _loses_name, _is_unsure, _loses_limit, _loses_measure, _passes_on, _points,
     _is_idle,
 )  # fmt: skip
 """What is no doubt where the grammar offers the same."""

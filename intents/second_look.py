@@ -5,7 +5,7 @@ them is taken where it is likely enough, else it is asked about.
 """
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import NamedTuple
 
 from msgspec.structs import replace
@@ -28,11 +28,10 @@ from intents.english.trouble import (
     Unpromised,
     Unread,
 )
-from intents.english.words import lexicon
-from intents.english.words.lexer import words_in
 from intents.english.words.names import NameIndex
-from intents.goals import Answer, Count, Find, Goal, If, LookAt, Report, Tell, each
+from intents.goals import Goal, If
 from intents.outcomes import YES_OR_NO, Goals, Outcome, Question, Refusal
+from intents.sentence_kind import SentenceKind, kind_of
 from intents.wording import in_words, sentence_case
 
 DOUBTFUL, RIVAL = 0.05, 0.3
@@ -51,10 +50,6 @@ _FEWEST = 3
 """So few leave none at all."""
 _MOST_REWORDED = 2
 """So many remainders without whole clauses are said in plain words: each takes a millisecond."""
-_ASKS = lexicon.words("please could can would will shall may might let fancy")
-"""With one of these a question may ask for something to be done."""
-LOOKING = (Find, Count, Tell, Report, Answer, LookAt)
-"""What answers a question."""
 LONGEST = 60
 """Longer than that nobody talks beside an order that the grammar reads."""
 _OWN_DOING = re.compile(
@@ -152,7 +147,8 @@ def second_look(
         hardly = hardly and not _passes_orders(text, best, read)
         sound = alike or not hardly or not is_known(first.goals, fields)
         return first if sound else _instead(text, best, likely, first)
-    told = first.tells or only_asks(text, best.attempt.goals)
+    kind = kind_of(text, best.attempt.goals, tells=first.tells)
+    told = kind in (SentenceKind.TOLD, SentenceKind.QUESTION)
     if likely >= best.least and not told:
         return best.attempt._replace(outcome=remarked(best.attempt.outcome, best.remark))
     if isinstance(first.outcome, Refusal) and not isinstance(first.error, Unread):
@@ -161,13 +157,6 @@ def second_look(
         return first
     asked = just_that(text, Partly(best.doubt, best.attempt.goals))
     return best.attempt._replace(outcome=asked, tells=first.tells)
-
-
-def only_asks(text: str, goals: Sequence[Goal]) -> bool:
-    """Whether a question that asks for nothing to be done was taken for an order."""
-    words = words_in(text)
-    asks = text.rstrip(" \"'”)").endswith("?") and _ASKS.isdisjoint(words)
-    return asks and not all(isinstance(goal, LOOKING) for goal in each(goals))
 
 
 def _passes_orders(text: str, look: Look, read: Grammar) -> bool:

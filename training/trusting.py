@@ -9,10 +9,10 @@ from intents.english.learnt.trust import RIGHT, WRONG, signs
 from intents.english.words.names import index_of
 from intents.goals import Goal, to_builtins
 from intents.parser import first_look
+from intents.sameness import same
 from intents.second_look import Attempt, is_settled, looks_at
 from training.learning import Example
 from training.marked import Marked
-from intents.sameness import same
 
 
 def readings(sentence: Marked, fields: Fields) -> list[Example]:

@@ -18,12 +18,12 @@ from intents.english.words.names import NameIndex, index_of
 from intents.goals import Goal, to_builtins
 from intents.outcomes import Goals
 from intents.parser import first_look
+from intents.sameness import same
 from intents.second_look import Attempt, second_look
 from intents.third_look import looked
 from intents.vocabulary import Vocabulary
 from training.learning import Example, learn
 from training.marked import Marked
-from intents.sameness import same
 
 _AT_ONCE = 20
 """So many sentences are read by a process before it is given others."""

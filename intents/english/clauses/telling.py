@@ -10,6 +10,7 @@ from intents.english.clauses.wishes import WISHES
 from intents.english.words import lexicon
 from intents.english.words.courtesy import ADDRESSES
 from intents.english.words.lexer import COMMA, FULL_STOP
+from intents.english.words.requests import ASKS_IN_STATEMENTS
 from intents.english.words.text import Text
 from intents.english.words.verbs import base_form, verbs_at
 
@@ -18,13 +19,13 @@ _OPENINGS = (
 )
 _SIGNS = (COMMA, FULL_STOP)
 _LINKS = lexicon.words("but so and then anyway anyhow just now , .")
-_ASKS = lexicon.words("you your please me us could would should must ought let can need needs")
-"""With one of these a statement may ask for something: "I would love some tea"."""
 
 
 def only_tells(text: Text) -> bool:
     """Whether every clause is a statement, or a cry, and none has a word that asks."""
-    if not _ASKS.isdisjoint(text.words) or any(_orders(text, at) for at in range(1, len(text))):
+    if not ASKS_IN_STATEMENTS.isdisjoint(text.words) or any(
+        _orders(text, at) for at in range(1, len(text))
+    ):
         return False
     at, told = 0, False
     while at < len(text):

@@ -25,7 +25,8 @@ _CAUSES = lexicon.phrases(
 )
 _SUBJECTLESS = lexicon.phrases(
     "can not,could not,does not matter,do not matter,will not be,did not,has not,have not,"
-    "trying to,been"
+    "trying to,been,is not but,is not no,is not any,is not enough,is not nobody,is not anybody,"
+    "is not nothing,is only,is but"
 )
 """How a statement begins whose subject goes without saying: "can't talk, ..."."""
 _WHENEVER = lexicon.phrases("whenever,each time,every time,any time,everytime,anytime")

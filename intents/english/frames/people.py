@@ -20,7 +20,7 @@ def _someone(slots: Slots, question: str, *roles: str) -> list[Person]:
     return [replace(p, at=p.at or at) for p in people]
 
 
-_NEED_PLACE = ("see", "show", "help", "move", "steer")
+_NEED_PLACE = ("see", "show", "help", "move", "steer", "get")
 """Verbs that guide only where a place is named: see Ada to the door."""
 _GUIDES = ("guide", "escort", "lead", "accompany", "conduct", "usher")
 

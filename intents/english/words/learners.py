@@ -8,6 +8,7 @@ have). Each is told by its form, whatever is named in it.
 from intents.english.words.lexer import COMMA, FULL_STOP, Token, singular
 from intents.english.words.lexicon import DETERMINERS, LOCATIVES, SUPERLATIVES, unlisted
 from intents.english.words.names import NameIndex
+from intents.english.words.verbs import FIRST_WORDS, base_form
 
 _LIES = unlisted("lying laying standing sitting hanging placed located being situated")
 _WARMS = unlisted("warming heating cooling starting revving firing")
@@ -18,12 +19,14 @@ _SHOWS = unlisted("show point indicate")
 _TAKES = unlisted("take bring fetch give get pick choose select")
 _COUNTS = unlisted("one two three four five a an some")
 _LINKS = unlisted("that which who where when what if is are")
+_OBJECTS = unlisted("it me him her them us to here back in on off up")
 _LONGEST = 3
 
 
 def in_english_order(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens in the order that the grammar knows."""
-    tokens = _verb_second(_pointed(_wished_last(_started(_stated(tokens)))), index)
+    tokens = _wished_last(_started(_stated(_afterwards(tokens, index))))
+    tokens = _verb_second(_pointed(_most(tokens, index)), index)
     for at in range(len(tokens) - 3, -1, -1):
         tokens = _described_ahead(tokens, at, index) or _chosen_from(tokens, at, index) or tokens
     return tokens
@@ -44,6 +47,34 @@ def _stated(tokens: list[Token]) -> list[Token]:
         else:
             plain.append(token)
     return plain
+
+
+def _afterwards(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """Wait here *and after* bring the tea: and then."""
+    said = [token.text for token in tokens]
+    plain = list(tokens)
+    for at in range(1, len(said) - 2):
+        verb = said[at + 1]
+        bare = verb in FIRST_WORDS and base_form(verb) == verb and not index.match(said, at + 1)
+        joined = said[at] == "after" and said[at - 1] in ("and", COMMA, FULL_STOP)
+        goes_on = said[at + 2] in DETERMINERS or index.match(said, at + 2) is not None
+        if joined and bare and (goes_on or said[at + 2] in _OBJECTS):
+            plain[at] = Token("then", tokens[at].raw)
+    return plain
+
+
+def _most(tokens: list[Token], index: NameIndex) -> list[Token]:
+    """The bowl *more small*: the smallest bowl."""
+    said = [token.text for token in tokens]
+    for at in range(len(said) - 2):
+        match = index.match(said, at + 1) if said[at] == "the" else None
+        size = said[match.end : match.end + 2] if match and match.of("object", "category") else []
+        sized = len(size) > 1 and size[0] in ("more", "most") and ("most", size[1]) in SUPERLATIVES
+        if match is not None and sized:
+            most = [Token("most", tokens[match.end].raw), tokens[match.end + 1]]
+            noun = tokens[at + 1 : match.end]
+            return [*tokens[: at + 1], *most, *noun, *tokens[match.end + 2 :]]
+    return tokens
 
 
 def _started(tokens: list[Token]) -> list[Token]:

@@ -115,7 +115,7 @@ SPELLINGS: dict[str, str] = {
     "guide": (
         "show,guide,escort,lead,accompany,conduct,usher,navigate,direct,show the way,"
         "help,show around,take along,bring along with,steer,walk home,see,take,bring,"
-        "walk,move,return with,come back with,bring back,get back with"
+        "walk,move,get,return with,come back with,bring back,get back with"
     ),
     "meet": (
         "meet,get to know,get acquainted with,meet up with,meet with,become acquainted with,"
