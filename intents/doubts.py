@@ -62,8 +62,7 @@ SURE, SURER, SUREST, NEVER = 0.7, 0.9, 0.95, 2.0
 how far, in which cases or what to say, which a network may well guess; where the grammar sees
 nothing to do in the sentence, or the network itself is not sure of its words; never."""
 QUITE_SURE = 0.85
-"""The same for a sentence whose form is no order's, what the robot is to tell of itself, and what
-may be said for some cases only."""
+"""The same for a sentence whose form is no order's, and what the robot is to tell of itself."""
 WITNESSED = 0.6
 """The same where the grammar offers just what the network says: two that know nothing of one
 another were wrong in one of 75, whatever is lost."""
@@ -321,7 +320,7 @@ def _loses_count(case: _Case) -> bool:
 _BY_KIND = {
     SentenceKind.ORDER: 0.0,
     SentenceKind.UNASKED: QUITE_SURE,
-    SentenceKind.TOLD: SUREST,
+    SentenceKind.TOLD: NEVER,
     SentenceKind.QUESTION: NEVER,
     SentenceKind.QUOTED: NEVER,
 }
@@ -341,7 +340,7 @@ _DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
     (_ends_something, SUREST),
     (_passes_on, SURER),
     (_loses_measure, SURER),
-    (_loses_limit, QUITE_SURE),
+    (_loses_limit, SURER),
     (_tells_of_itself, QUITE_SURE),
 )
 _WITNESSED = (

@@ -31,7 +31,7 @@ _SEVERAL = 2
 _REACH = 3
 
 
-def turns_round(words: Sequence[str], goals: Sequence[Goal]) -> bool:
+def turns_round(words: list[str], goals: Sequence[Goal]) -> bool:
     """Bring *down* the curtain: whether it opens or switches on what was to be shut or off.
 
     The other way round nothing can be told: "it stands wide open" asks for it to be closed.
@@ -40,13 +40,13 @@ def turns_round(words: Sequence[str], goals: Sequence[Goal]) -> bool:
     return bool(begun) and not _SHUTS.isdisjoint(words) and _OPENS.isdisjoint(words)
 
 
-def switches_furniture(words: Sequence[str], goals: Sequence[Goal]) -> bool:
+def switches_furniture(words: list[str], goals: Sequence[Goal]) -> bool:
     """Boots *off the table*: whether what is no device is switched, and nobody said that."""
     switched = [goal for goal in each(goals) if isinstance(goal, Switch)]
     return _SWITCHES.isdisjoint(words) and any(not is_device(goal) for goal in switched)
 
 
-def counts_another(words: Sequence[str], goals: Sequence[Goal], names: NameIndex) -> bool:
+def counts_another(words: list[str], goals: Sequence[Goal], names: NameIndex) -> bool:
     """Espresso, *two sugars*: whether the only number said counts what nobody knows."""
     counted = {
         count
@@ -62,48 +62,50 @@ def counts_another(words: Sequence[str], goals: Sequence[Goal], names: NameIndex
     return False
 
 
-def _counts_known(words: Sequence[str], at: int, names: NameIndex) -> bool:
+def _counts_known(words: list[str], at: int, names: NameIndex) -> bool:
     """Whether a number before a word counts what is known, or what goes without saying."""
     if at >= len(words) or words[at] in _COUNTED_BY or words[at] in lexicon.FUNCTION_WORDS:
         return True
-    known = (names.match(words, n) for n in range(at, min(at + _REACH, len(words))))
+    behind = range(at, min(at + _REACH, len(words)))
+    if any(words[n] in lexicon.OBJECT_NOUNS | lexicon.PERSON_NOUNS for n in behind):
+        return True
+    known = (names.match(words, n) for n in behind)
     return any(match is not None and match.of("object", "category") for match in known)
 
 
-def mistimes(words: Sequence[str], goals: Sequence[Goal]) -> bool:
+def mistimes(words: list[str], goals: Sequence[Goal]) -> bool:
     """Whether a wait is of another length than any that was said."""
     told = [one.value for one in _durations(words)]
     waits = [goal.duration_s for goal in each(goals) if isinstance(goal, Wait) and goal.duration_s]
     return any(all(abs(wait - one) > _NEAR for one in told) for wait in waits)
 
 
-def measures_lost(words: Sequence[str], goals: Sequence[Goal]) -> bool:
+def measures_lost(words: list[str], goals: Sequence[Goal]) -> bool:
     """Whether how long or how far was said comes back in no goal."""
     told = numbers(goals)
     return any(all(abs(one.value - n) > _NEAR for n in told) for one in _measured(words))
 
 
-def _durations(words: Sequence[str]) -> Iterator[Measure]:
+def _durations(words: list[str]) -> Iterator[Measure]:
     return (one for one in _measured(words) if one.kind == "time")
 
 
-def _measured(words: Sequence[str]) -> Iterator[Measure]:
-    said = list(words)
+def _measured(words: list[str]) -> Iterator[Measure]:
     at = 0
-    while at < len(said):
-        found = measure(said, at)
+    while at < len(words):
+        found = measure(words, at)
         if found is not None:
             yield found
         at = found.end if found is not None else at + 1
 
 
-def loses_all(words: Sequence[str], goals: Sequence[Goal], names: NameIndex) -> bool:
+def loses_all(words: list[str], goals: Sequence[Goal], names: NameIndex) -> bool:
     """Everything *on the bar*, every *cup*: whether it is done to one of them."""
     counts = [getattr(getattr(goal, "object", None), "count", None) for goal in each(goals)]
     if "all" in counts or any(isinstance(goal, ForEach | Count) for goal in each(goals)):
         return False
     for at, word in enumerate(words[:-1]):
-        match = names.match(list(words), at + 1) if word in _EVERY else None
+        match = names.match(words, at + 1) if word in _EVERY else None
         if match is not None and match.of("object", "category"):
             return True
         if word == "everything" and words[at + 1] in _WHERE:

@@ -29,7 +29,7 @@ from intents.english.trouble import (
     Unread,
 )
 from intents.english.words.names import NameIndex
-from intents.goals import Goal, If
+from intents.goals import Goal, If, Say, each
 from intents.outcomes import YES_OR_NO, Goals, Outcome, Question, Refusal
 from intents.sentence_kind import SentenceKind, kind_of
 from intents.wording import in_words, sentence_case
@@ -144,7 +144,8 @@ def second_look(
     if first.goals:
         alike = any(one.attempt.goals == first.goals for one in found[1:])
         hardly = sure[0] < DOUBTFUL and likely > RIVAL
-        hardly = hardly and not _passes_orders(text, best, read)
+        says = any(isinstance(goal, Say) for goal in each(first.goals))  # word for word
+        hardly = hardly and not says and not _passes_orders(text, best, read)
         sound = alike or not hardly or not is_known(first.goals, fields)
         return first if sound else _instead(text, best, likely, first)
     kind = kind_of(text, best.attempt.goals, tells=first.tells)

@@ -115,9 +115,9 @@ def is_complement(one: Condition, other: Condition) -> bool:
     if isinstance(one, State) and isinstance(other, State) and one.what == other.what:
         opposite = _OPPOSITES.get(one.state) == other.state and one.negated == other.negated
         return opposite or (one.state == other.state and one.negated != other.negated)
-    if isinstance(one, Present | Holding) and type(one) is type(other):
-        return one.negated != other.negated and replace(one, negated=other.negated) == other
-    return False
+    if not isinstance(one, Present | Holding) or not isinstance(other, Present | Holding):
+        return False
+    return one.negated != other.negated and replace(one, negated=other.negated) == other
 
 
 def _asked(text: Text, at: int, scope: Scope) -> tuple[Condition, int] | None:

@@ -70,7 +70,7 @@ _ACCOMPANY = words("go come walk stay be is am was wrong matter up do deal along
 _PREDICATES = words(
     "about around ringing shut closed there here still not gone empty full open closed in on at "
     "under behind near next missing away wanted needed required needing wanting "
-    "standing sitting lying hanging left switched turned gonna going blocked locked"
+    "standing sitting lying hanging switched turned gonna going blocked locked"
 )
 """What follows "the bottle's" where that is no owner."""
 _WISHES = phrases(

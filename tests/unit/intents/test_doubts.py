@@ -3,11 +3,11 @@
 import pytest
 
 from intents.context import Context
-from intents.doubts import NEVER, QUITE_SURE, SURE, SURER, SUREST, needed
+from intents.doubts import NEVER, QUITE_SURE, SURE, SURER, SUREST, WITNESSED, needed
 from intents.english.learnt.choice import SILENT, Both, Name, Side
 from intents.english.paraphrase.source import units, words_of
 from intents.english.words.names import index_of
-from intents.outcomes import Goals
+from intents.outcomes import Goals, Question
 from intents.parser import first_look
 from intents.vocabulary import Vocabulary
 
@@ -37,19 +37,35 @@ def least(said: str, plain: str, *, likely: float = 0.9, asked_for: float = SURE
         ("hoick us the flare off that rail there would ye", "bring the flare at the rail to me",
          SURE),
         ("hoick the master key hither, no, the room key I want", "bring the room key to me",
-         QUITE_SURE),
-        ("the flare for Jago and yon spyglass hither", "bring the spyglass to me", NEVER),
+         SURE),
+        ("the flare for Jago and yon spyglass hither", "bring the spyglass to me", SUREST),
         ("The lantern, it makes smoke, shut it", "close the lantern", SURE),
         ("The lantern, it makes such smoke", "close the lantern", QUITE_SURE),
         ("hoick two flares hither for Jago somehow", "bring the flare to Jago", NEVER),
         ("hoick the flare to Jago at nine o'clock somehow", "bring the flare to Jago", NEVER),
-        ("would ye be stopping there ten minutes somehow", "wait 10 s", SURER),
+        ("would ye be stopping there ten minutes somehow", "wait 10 s", NEVER),
+        ("would ye be stopping there ten minutes somehow", "wait 600 s", SURE),
+        ("would ye be stopping at the rail ten minutes somehow", "go to the rail", SURER),
         ("how would anybody ever hoick the flare to Jago?", "bring the flare to Jago", NEVER),
         ("my hands are wet, you bring the flare somehow?", "bring the flare to me", SURE),
     ],
 )  # fmt: skip
 def test_what_may_be_lost_asks_for_more(said: str, plain: str, wanted: float) -> None:
     assert least(said, plain) == wanted
+
+
+def test_two_that_agree_have_to_be_less_sure() -> None:
+    said, plain = "bring the flare to Morwenna, thole the morrow", "bring the flare to Morwenna"
+    before = first_look(said, LIGHTHOUSE, Context())
+    other = first_look(plain, LIGHTHOUSE, Context()).outcome
+    assert isinstance(before.outcome, Question)
+    assert isinstance(other, Goals)
+    assert before.outcome.goals == other.goals
+    alike = Side("question", before.outcome.goals), Side("goals", other.goals)
+    both = Both(said, [], plain, 0.4, *alike)
+    assert needed(said, INDEX, before, both) == WITNESSED
+    unlike = both._replace(own=SILENT)
+    assert needed(said, INDEX, before, unlike) == SUREST
 
 
 def test_words_that_the_network_is_not_sure_of_have_to_be_likeliest() -> None:

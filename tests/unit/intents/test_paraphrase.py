@@ -20,7 +20,7 @@ from intents.goals import Bring, Wait
 from intents.outcomes import Goals, Question
 from intents.parser import first_look, parse
 from intents.second_look import Attempt
-from intents.third_look import TRUSTED, third_look
+from intents.third_look import CAREFUL, CLEAR, TRUSTED, third_look
 from intents.vocabulary import Vocabulary
 
 OBSERVATORY = Vocabulary.of(
@@ -231,7 +231,31 @@ def test_what_is_asked_on_purpose_stays_asked(said: str, error: type) -> None:
 def test_what_the_grammar_was_made_for_is_left_to_it(said: str) -> None:
     before = first_look(said, OBSERVATORY, Context())
     assert isinstance(before.outcome, Goals), before
+    assert looked(said, Unasked(ORDER.plain), alone=CAREFUL + 0.01).outcome == before.outcome
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["do be a darling and tell Ingrid that the thermos is on the bench", "bring the thermos"],
+)
+def test_messages_and_few_plain_words_always_are(said: str) -> None:
+    before = first_look(said, OBSERVATORY, Context())
+    assert isinstance(before.outcome, Goals), before
     assert looked(said, Unasked(ORDER.plain)).outcome == before.outcome
+
+
+def test_what_speaks_against_a_plain_order_has_to_be_likelier_and_sure_of_its_words() -> None:
+    said = "please bring the thermos from the bench to Ingrid in the library"
+    before = first_look(said, OBSERVATORY, Context())
+    other = "put the thermos on the bench ; come here ; greet Ingrid at the library"
+    taken = looked(said, Says(other), own=0.2, other=0.8)
+    assert isinstance(taken.outcome, Goals)
+    assert taken.goals != before.goals
+    assert isinstance(looked(said, Says(other), own=0.2, other=0.5).outcome, Question)
+    assert looked(said, Says(other), own=0.4, other=0.3).outcome == before.outcome
+    assert looked(said, Says(other, CLEAR - 0.01), own=0.2).outcome == before.outcome
+    same = "bring the thermos at the bench to Ingrid at the library"
+    assert looked(said, Says(same), own=0.2).outcome == before.outcome
 
 
 def test_an_order_that_was_read_is_never_just_left_out() -> None:

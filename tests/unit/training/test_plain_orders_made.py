@@ -9,10 +9,10 @@ from intents.english.paraphrase.paraphrasing import NOTHING
 from intents.goals import to_builtins
 from intents.outcomes import Goals
 from intents.parser import first_look
+from intents.sameness import same
 from intents.vocabulary import Vocabulary
 from training.paraphrase.choosing import examples
 from training.paraphrase.plain_orders import plain_orders
-from intents.sameness import same
 
 MILL = Vocabulary.of(
     objects=["flour sack", "oil can", "lantern"],
