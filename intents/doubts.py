@@ -267,11 +267,19 @@ def _ends_something(case: _Case) -> bool:
 
 
 def _leaves_out(case: _Case) -> bool:
-    """Whether the network only leaves out an order that the grammar read, and no talk."""
-    before = case.before
-    if not isinstance(before.outcome, Goals) or any(g not in before.goals for g in case.goals):
+    return leaves_out(case.before, case.goals)
+
+
+def takes_back(text: str) -> bool:
+    """Whether some word of a text takes back what was said before it."""
+    return _TAKES_BACK.search(text.lower()) is not None
+
+
+def leaves_out(before: Attempt, goals: Sequence[Goal]) -> bool:
+    """Whether goals only leave out an order that the grammar read, and no talk."""
+    if not isinstance(before.outcome, Goals) or any(g not in before.goals for g in goals):
         return False
-    return any(not is_by_the_way(goal) for goal in before.goals if goal not in case.goals)
+    return any(not is_by_the_way(goal) for goal in before.goals if goal not in goals)
 
 
 def _loses_name(case: _Case) -> bool:

@@ -61,6 +61,7 @@ def conditional(sentence: Sentence, at: int) -> Found | None:
     skipped = end
     while text.word(skipped) in (COMMA, FULL_STOP) and skipped < len(text):
         skipped += 1
+    skipped = other_case(text, end) or skipped
     otherwise = otherwise_end(text, skipped) or _complement_end(sentence, end, holds)
     other: list[Goal] = []
     if otherwise:

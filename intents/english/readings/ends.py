@@ -63,6 +63,8 @@ _BELONGS = lexicon.phrases(
     "are supposed to go,is meant to go,are meant to go,can go,could go,is going,are going,gotta go"
 )
 _ALL_THINGS = lexicon.words("everything all thing things stuff")
+_NARROWS = lexicon.words("that which who not no is are was but except")
+"""With one of these it is not all of them."""
 _SEVERAL = 2
 
 
@@ -196,6 +198,7 @@ def _belongs(
     text, scope = sentence.text, sentence.scope
     start = text.phrase_end(_BELONGS, phrase.end)
     everything = phrase.said in _ALL_THINGS and bool(phrase.places)  # everything on the bar
+    everything = everything and _NARROWS.isdisjoint(text.words[phrase.start : phrase.end])
     if start is None or phrase.is_person:
         return None
     if not (everything or phrase.name("object", "category")):
