@@ -334,6 +334,7 @@ _BY_KIND = {
 }
 """How likely it has to be by the kind of sentence it is a reading of."""
 _DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
+    (_loses_name, NEVER),
     (_is_contrary, NEVER),
     (_loses_count, NEVER),
     (_counts_nobody_said, NEVER),
@@ -342,7 +343,6 @@ _DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
     (_is_short, NEVER),
     (_calls_somebody, NEVER),
     (_is_not_of_itself, NEVER),
-    (_loses_name, SUREST),
     (_is_idle, SUREST),
     (_is_unsure, SUREST),
     (_ends_something, SUREST),
@@ -352,7 +352,7 @@ _DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
     (_tells_of_itself, QUITE_SURE),
 )
 _WITNESSED = (
-    _loses_name, _is_unsure, _loses_limit, _loses_measure, _passes_on, _points,
+    _is_unsure, _loses_limit, _loses_measure, _passes_on, _points,
     _is_idle,
 )  # fmt: skip
 """What is no doubt where the grammar offers the same."""

@@ -240,7 +240,12 @@ def _is_weighed(text: str, names: Sequence[Name], before: Attempt, *, follows: b
     No message is: the network often puts it otherwise; nor a few words that are plainly put.
     """
     says = any(isinstance(goal, _SPOKEN) for goal in each(before.goals))
-    if says or _refers(text, follows=follows) or not is_known(before.goals):
+    if (
+        says
+        or _is_remarked_on(before)
+        or _refers(text, follows=follows)
+        or not is_known(before.goals)
+    ):
         return False
     said = [name.said for name in names]
     return not (is_plain(text) and is_plainly_put(_GREETING.sub("", text), said, strange=_STRANGE))
@@ -248,10 +253,15 @@ def _is_weighed(text: str, names: Sequence[Name], before: Attempt, *, follows: b
 
 def _is_kept(text: str, before: Attempt) -> bool:
     """Whether what the grammar read is never given up: what is said word for word, say."""
-    outcome = before.outcome
-    kept = any(isinstance(goal, _KEPT) for goal in each(before.goals))
-    kept |= any(remark in (getattr(outcome, "reason", "") or "") for remark in _ON_PURPOSE)
-    return kept or is_plain(text) or not is_known(before.goals)
+    if any(isinstance(goal, _KEPT) for goal in each(before.goals)) or _is_remarked_on(before):
+        return True
+    return is_plain(text) or not is_known(before.goals)
+
+
+def _is_remarked_on(before: Attempt) -> bool:
+    """Whether the grammar kept from an order on purpose, and says so."""
+    told = getattr(before.outcome, "reason", "") or ""
+    return any(remark in told for remark in _ON_PURPOSE)
 
 
 def _is_plain(text: str, names: Sequence[Name], before: Attempt, *, follows: bool) -> bool:

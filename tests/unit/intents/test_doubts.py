@@ -38,7 +38,7 @@ def least(said: str, plain: str, *, likely: float = 0.9, asked_for: float = SURE
          SURE),
         ("hoick the master key hither, no, the room key I want", "bring the room key to me",
          SURE),
-        ("the flare for Jago and yon spyglass hither", "bring the spyglass to me", SUREST),
+        ("the flare for Jago and yon spyglass hither", "bring the spyglass to me", NEVER),
         ("The lantern, it makes smoke, shut it", "close the lantern", SURE),
         ("The lantern, it makes such smoke", "close the lantern", QUITE_SURE),
         ("hoick two flares hither for Jago somehow", "bring the flare to Jago", NEVER),
