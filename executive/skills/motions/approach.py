@@ -9,11 +9,12 @@ from __future__ import annotations
 
 import math
 
+from executive.skills.motions.asking_aside import ask_for_room
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import is_at_stance, miss, step_to
 from executive.skills.motions.gaze import look_at
 from executive.skills.motions.obstructions import clearance_m
-from executive.skills.motions.personal_space import get_familiar
+from executive.skills.motions.personal_space import get_familiar, somebody_near
 from executive.skills.motions.planning import pose_of, stance_of
 from executive.skills.motions.reach import move_arm
 from executive.skills.motions.script import OVER, Script, side_by_side
@@ -33,6 +34,7 @@ def approach(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[Non
         X_WB = pose_of(plan.standoff) @ _X_SB(body)
         body.phase = f"walking to the {what}"
         yield from walk_near(body, plan.standoff)
+        yield from _have_room(body, plan.stance)
         if plan.over is None and _has_room(body, plan.standoff):
             yield from _raise_stepping(body, plan, X_WB=X_WB)
         else:
@@ -41,6 +43,14 @@ def approach(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[Non
     else:
         yield from _raise(body, plan)
     yield from step_in(body, plan, what=what)
+
+
+def _have_room(body: Body, stance: Stance) -> Script[None]:
+    """Ask who stands within half a metre of where the hand is to work to leave room for it."""
+    person = somebody_near(body, (*stance[:2], 0.0))
+    if person is not None:
+        yield from stand_still(body)
+        yield from ask_for_room(body, person)
 
 
 def _raise(body: Body, plan: PickPlan | PlacePlan, *, X_WB: SE3 | None = None) -> Script[None]:

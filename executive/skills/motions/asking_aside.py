@@ -42,6 +42,16 @@ def ask_aside(body: Body, person: PersonInfo) -> Script[None]:
         yield from _stirs(body, person)
 
 
+def ask_for_room(body: Body, person: PersonInfo) -> Script[None]:
+    """Ask somebody to leave room who stands beside where a hand is to work; once, then goes on.
+
+    Planners keep arms clear of them, or find no way past them; whoever stays is no reason to fail.
+    """
+    look_at(body, (*body.X_WPerson(person.id).p[:2], FACE_M))
+    _plead(body, person)
+    yield from _stirs(body, person)
+
+
 def _plead(body: Body, person: PersonInfo, *, made_room: bool = False) -> None:
     _say(body, body.context.encounters.plead(person.id, body.now_s, made_room=made_room))
 

@@ -93,11 +93,18 @@ def _goes_inside(clause: Clause, scope: Scope) -> bool:
 
 
 def _gathered(clause: Clause, slots: Slots) -> NounPhrase | None:
-    """Gather the cups on the table: there they are to be, if nothing else is done with them."""
+    """Gather the cups on the table: there they are to be, if nothing else is done with them.
+
+    Of what is collected only where it is all there are, and nothing is done with it: "collect all
+    the cups on the table and bring them to me" says where they are.
+    """
     bare = slots.peek("")
-    if clause.verb not in ("gather", "round up") or bare is None or "put" in _then(clause):
+    if clause.verb not in ("gather", "round up", "collect") or bare is None:
         return None
-    phrase = bare.phrases[-1]
+    phrase, then = bare.phrases[-1], _then(clause)
+    all_there_are = phrase.count == "all" and then.isdisjoint(("bring", "give", "drop", "take"))
+    if "put" in then or (clause.verb == "collect" and not all_there_are):
+        return None
     several = phrase.count or phrase.said != " ".join(map(singular, phrase.said.split()))
     where = phrase.places[-1:] or [Locative(c.how, c.phrase) for c in clause.with_role("at")]
     there = bool(where) and where[0].how in ("on", None) and where[0].of.is_spot

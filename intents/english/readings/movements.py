@@ -18,6 +18,7 @@ _TO_AND_FRO = lexicon.phrases(
 )
 _THROUGH = lexicon.phrases("through,of,to,at,in,around,between,along,from")
 _ROUNDS = ("round", "rounds", "tour", "tours", "lap", "laps", "patrol", "patrols")
+_ALL_ROOMS = lexicon.EVERY_ROOM | lexicon.phrases("the rooms")
 _ASIDE = lexicon.phrases(
     "step aside,move aside,go aside,stand aside,get out of the way,get out of my way,"
     "move out of the way,move out of my way,go out of the way,out of the way,out of my way,"
@@ -75,14 +76,25 @@ def patrol(sentence: Sentence, at: int) -> Found | None:
     if times is None and text.word(start) == "between":
         return None  # to and fro, which asks how often
     start = text.phrase_end(_THROUGH, start) or start
-    phrases, end = read_list(text, start)
-    if not phrases or not all(phrase.is_spot or phrase.name("room") for phrase in phrases):
+    there, end = _rounds(sentence, start)
+    if not there:
         return None
-    there = tuple(GoTo(place=to_place(phrase, sentence.scope)) for phrase in phrases)
     late = measure(text.words, end)
     if times is None and late is not None and late.kind == "times":
         times, end = late, late.end
     return repeated(list(there), times.value if times else 1), end
+
+
+def _rounds(sentence: Sentence, at: int) -> tuple[tuple[GoTo, ...], int]:
+    """Where a patrol leads, described from a word on, and where that ends; nowhere: not told."""
+    text = sentence.text
+    end = text.phrase_end(_ALL_ROOMS, at)
+    if end is not None:
+        return tuple(GoTo(place=room) for room in text.index.rooms), end
+    phrases, end = read_list(text, at)
+    if not all(phrase.is_spot or phrase.name("room") for phrase in phrases):
+        return (), end
+    return tuple(GoTo(place=to_place(phrase, sentence.scope)) for phrase in phrases), end
 
 
 def pose(sentence: Sentence, at: int) -> Found | None:

@@ -32,10 +32,6 @@ def for_each(sentence: Sentence, at: int) -> Found | None:
     return [ForEach(object=query, goals=tuple(goals))], end
 
 
-_EVERY_ROOM = lexicon.phrases(
-    "every room,each room,all rooms,all the rooms,all of the rooms,every one of the rooms,"
-    "each of the rooms,every single room,each and every room"
-)
 _OF_HOME = lexicon.phrases(
     "in the house,of the house,in the flat,of the flat,in the apartment,of the apartment,"
     "in the home,in the building,there are,that there is,here,in turn,one after another"
@@ -48,7 +44,9 @@ def for_each_room(sentence: Sentence, at: int) -> Found | None:
     text = sentence.text
     ends = [end for sense, end in verbs_at(text.words, at) if sense in ("go", "find")]
     starts = [end for verb in ends for end in (text.phrase_end(_INTO, verb) or verb,)]
-    end = next((end for start in starts if (end := text.phrase_end(_EVERY_ROOM, start))), None)
+    end = next(
+        (end for start in starts if (end := text.phrase_end(lexicon.EVERY_ROOM, start))), None
+    )
     if end is None:
         return None
     end = text.phrase_end(_OF_HOME, end) or end

@@ -338,6 +338,11 @@ PATROLS = phrases(
     "go the rounds,make a round,do a round,do a tour,make a tour"
 )
 """How a patrol begins."""
+EVERY_ROOM = phrases(
+    "every room,each room,all rooms,all the rooms,all of the rooms,every one of the rooms,"
+    "each of the rooms,every single room,each and every room"
+)
+"""All the rooms of the home, one after the other; not those that have "room" in their names."""
 AUXILIARIES = words(
     "is are was were be been am do does did has have had can could will would should shall may "
     "might must not"

@@ -68,6 +68,10 @@ def _goals(said: str) -> list[dict[str, object]] | str:
         ("I would like to have the teal thermos on the cart", "put the teal thermos on the cart"),
         ("I'd like both thermoses on the cart", "put both thermoses on the cart"),
         ("gather the thermoses on the desk", "put all thermoses on the desk"),
+        ("collect all the pens on the desk", "put all pens on the desk"),
+        ("do a round through all the rooms and then come back here to the archive",
+         "go to every room, then go to the archive"),
+        ("patrol all rooms twice", "patrol the archive, the hall and the reading room twice"),
         ("clear the pens off the desk and put them on the cart",
          "take all pens from the desk and put them on the cart"),
         ("walk over to the hall, and from there to the archive",
@@ -147,9 +151,22 @@ def test_any_of_them_are_all_of_them():
     assert to_builtins(goal.then) == _goals("bring all cans on the desk to the cart")
 
 
-def test_gathered_to_be_put_elsewhere_they_are_taken_from_there():
-    said = "gather all the pens on the desk and put them on the cart"
+@pytest.mark.parametrize("verb", ["gather", "collect"])
+def test_gathered_to_be_put_elsewhere_they_are_taken_from_there(verb: str):
+    said = f"{verb} all the pens on the desk and put them on the cart"
     assert _goals(said) == _goals("pick up all the pens on the desk and put them on the cart")
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "collect all the pens on the desk and bring them to Ada",
+        "collect all the pens from the desk",
+        "collect the pens on the desk",
+    ],
+)
+def test_what_is_collected_for_something_else_is_where_it_was_said(said: str):
+    assert _goals(said)[0].get("object", {}).get("at") == "desk"
 
 
 def test_what_is_only_passed_on_is_said_as_it_was_written():

@@ -213,6 +213,18 @@ def test_what_stood_there_before_the_arm_moved_does_not(stage):
     assert not any(phase.startswith("waiting") for phase in stage.phases)
 
 
+@pytest.mark.parametrize("stays", [False, True])
+def test_who_stands_beside_where_a_hand_will_work_is_asked_before_it_comes_up(stage, stays):
+    """Farther from the stance than the body is wide, so no reason to stop, or to fail."""
+    beside = SE3((1.25, -0.64, 0.0))
+    comes(stage, "walking", lambda: AWAY if len(stage.said) > 1 and not stays else beside)
+    report = stage.run(PickParams(object_id="cup", side="left"), until_phase="raising")
+    assert report.status == "running", report
+    assert "waiting for Ann to step aside" in stage.phases
+    assert stage.said == [PLEAS[0], PLEAS[1]], "from afar, and where she has not left"
+    assert "stopping for Ann" not in stage.phases
+
+
 # --- backing away -------------------------------------------------------------------------------
 
 
