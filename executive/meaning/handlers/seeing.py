@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from executive.blackboard import WORLD, Blackboard
 from executive.meaning import answers
 from executive.meaning.handlers.moving import go_to_person
 from executive.meaning.handlers.people import to_their_face
@@ -47,8 +48,34 @@ def look_at(goal: goals.LookAt, scene: Scene) -> Part:
         raise cannot("invalid_goal", "look at what?", suggestion="name an object or a place")
     if not scene.knowledge.places(goal.place) and (aside := _aside(goal.place)) is not None:
         return aside
-    place = scene.places(goal.place)[0]
-    return Errand(name=f"look at the {goal.place}", params=LookParams(place_id=place.id))
+    return _look_at_place(goal.place, scene)
+
+
+def _look_at_place(name: str, scene: Scene) -> Part:
+    """Turn the eyes to a place, from the room that it is in; in a room they go all around.
+
+    "Have a look in the pantry" is not done from the hall: nobody sees through a wall.
+    """
+    place, knowledge = scene.places(name)[0], scene.knowledge
+    room = knowledge.place(place.room)
+    is_room = place is room
+    params = LookParams(around=True) if is_room else LookParams(place_id=place.id)
+    look = Errand(name=f"look {'around' if is_room else 'at'} the {name}", params=params)
+    if room is None:
+        return look
+
+    def is_there(board: Blackboard) -> bool:
+        world = board.read(WORLD)
+        return world is not None and knowledge.room_at(world.X_WB.p) == room.name
+
+    go = Errand(name=f"go to the {name}", params=NavigateParams(place_id=place.id))
+    near = Branch(
+        name=f"in the {room.name}",
+        question=is_there,
+        then=Series(name="stay", parts=()),
+        otherwise=go,
+    )
+    return Series(name=f"have a look at the {name}", parts=(near, look))
 
 
 def _aside(where: str) -> Part | None:

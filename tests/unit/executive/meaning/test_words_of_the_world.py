@@ -581,3 +581,22 @@ def test_what_was_taken_from_beside_something_is_put_where_it_goes():
     assert isinstance(settle.then(("blue",)), Part)
     done = [type(one.params) for one in errands(settle.then(("blue",)))]
     assert done == [PickParams, PlaceParams]
+
+
+# --- looking --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("text", "at_x_m", "goes"), [
+    ("look at the hall", 0.0, True), ("have a look in the kitchen", 0.0, False),
+    ("look at the counter", 6.0, True), ("look at the counter", 0.0, False),
+])  # fmt: skip
+def test_what_is_in_another_room_is_looked_at_from_there(text: str, at_x_m: float, goes: bool):
+    """From this one nobody sees it, and the robot said "Done." all the same."""
+    (near,) = (part for part in parts(text, Branch) if isinstance(part, Branch))
+    then = near.then if near.question(board(at=(at_x_m, 1.0))) else near.otherwise
+    assert [one.params for _, one in walk(then) if isinstance(one, Errand)] == (
+        [NavigateParams(place_id=text.rsplit(maxsplit=1)[-1])] if goes else []
+    )
+    *_, look = parts(text, Errand)
+    assert isinstance(look, Errand)
+    assert look.name.startswith("look ")
