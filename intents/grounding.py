@@ -140,7 +140,7 @@ def ground(
         ranks: Other ways to measure superlatives; the largest measure wins.
     """
     known = list(entities)
-    fitting = [e for e in known if _fits(e, query)] or _of_the_kind(known, query)
+    fitting = _described(known, query) or _of_the_kind(known, query)
     if query.relation and fitting:
         fitting = _related(fitting, query.relation, known, view)
     if query.except_:
@@ -158,6 +158,20 @@ def ground(
     if len(fitting) == 1:
         return Grounded(fitting[0].id, (fitting[0].id,))
     return _ambiguous(query, fitting)
+
+
+def _described(known: list[Entity], query: ObjectQuery) -> list[Entity]:
+    """Those that are as described: of several, and where none is called so, those of that category.
+
+    "All the cups" are the coffee cup too, although something else is just called cup; "the cup" is
+    what is called so.
+    """
+    called = [e for e in known if _fits(e, query)]
+    several = query.count not in (None, 1) or query.superlative is not None
+    if query.name is None or query.category is not None or (called and not several):
+        return called
+    kind = replace(query, name=None, category=query.name)
+    return [e for e in known if e in called or _fits(e, kind)]
 
 
 def _of_the_kind(known: list[Entity], query: ObjectQuery) -> list[Entity]:
@@ -219,7 +233,8 @@ def _related(
 ) -> list[Entity]:
     """Those that stand so to the other thing; those of which it is not known may do so, too."""
     wanted = [replace(q, held=False) for q in (relation.of, relation.other) if q is not None]
-    others = [e for e in known if any(_fits(e, q) for q in wanted)]
+    described = [e for q in wanted for e in _described(known, q)]
+    others = [e for e in known if e in described]
     if relation.of.relation:
         others = _related(others, relation.of.relation, known, view)
     return [e for e in entities if _stands_so(e, relation, others, view)]

@@ -137,8 +137,9 @@ class Scene:
 
     def fitting(self, query: goals.ObjectQuery) -> list[ObjectInfo]:
         """Every object that a description may mean; there may be none."""
+        one = self.knowledge.object(query.name or "") if query.count is None else None
         try:
-            return self._all(replace(_anywhere(query), held=query.held))
+            return [one] if one else self._all(replace(_anywhere(query), held=query.held))
         except CannotMean:
             return []
 
@@ -195,7 +196,7 @@ class Scene:
     def _all(self, query: goals.ObjectQuery) -> list[ObjectInfo]:
         """The objects that a description means; where only one can be, wherever it is."""
         by_id = {info.id: info for info in self.knowledge.map.objects}
-        if query.name in by_id:
+        if query.name in by_id and query.count in (None, 1):  # "all the candles" are not this one
             return [by_id[query.name]]
         settled = self._settled.get(_bare(query)) or self._settled_and_held(query)
         if settled is not None:

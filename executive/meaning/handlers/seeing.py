@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from msgspec.structs import replace
+
 from executive.blackboard import WORLD, Blackboard
 from executive.meaning import answers
 from executive.meaning.handlers.moving import go_to_person
@@ -136,12 +138,12 @@ def count(goal: goals.Count, scene: Scene) -> Part:
         looks, number_of = counted(query, scene)
         tell = answers.say_count(number_of, noun=noun, where=f" {where_words(query)}")
     elif query.at is None:
-        ids = frozenset(info.id for info in scene.fitting(query))
+        ids = frozenset(info.id for info in scene.fitting(replace(query, count="all")))
         everywhere = query.count == "all"  # all there are: in the whole house
         looks = _looks_all_over(scene) if everywhere else _looks_around(ids, scene)
         tell = answers.count_everywhere(ids, scene.knowledge.map, noun=noun)
     else:
-        ids = frozenset(info.id for info in scene.fitting(query))
+        ids = frozenset(info.id for info in scene.fitting(replace(query, count="all")))
         places = to_look_over(scene.places(query.at), scene)
         looks = inspect(f"look over the {query.at}", query.at, scene)
         if len(places) > 1:  # what is higher than the eyes hides nothing of the rest

@@ -151,12 +151,16 @@ def _on(name: str, knowledge: Knowledge) -> str:
 
 
 def _looks(query: goals.ObjectQuery, scene: Scene) -> list[Part]:
-    """Looks in their order: at the places named, at the landmarks, around."""
+    """Looks in their order: at the places named, else at the landmarks, else around.
+
+    Who looks over the table sees what the candle there stands between; a goblet that is elsewhere
+    in the house is not looked for.
+    """
     looks: list[Part] = []
     if query.at is not None:
         named = to_look_over(places_at(query.at, scene), scene)
         looks += [tolerant(visit(place)) for place in named]
-    if query.relation is not None:
+    if query.relation is not None and not looks:
         ends = (query.relation.of, query.relation.other)
         for end in (end for end in ends if end is not None):
             looks += _landmark(end, scene)

@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from intents.goals import ObjectQuery
+from intents.goals import ObjectQuery, Relation
 from intents.grounding import Ambiguous, Entity, Grounded, Unknown, ground
 
 RED = Entity(id="c1", name="cup", category="dish", color="red", size_m=(0.08, 0.08, 0.1),
@@ -25,6 +25,39 @@ def test_two_that_fit_are_a_question_that_names_both() -> None:
     assert isinstance(found, Ambiguous)
     assert found.candidates == ("c1", "c2")
     assert found.question == "Which cup, the red one or the blue one?"
+
+
+GOBLETS = (
+    Entity(id="g1", name="gold goblet", category="goblet", color="yellow", at="table",
+           p_WO=(0.0, -0.25, 0.8), size_m=(0.07, 0.07, 0.14)),
+    Entity(id="g2", name="silver goblet", category="goblet", color="steel", at="table",
+           p_WO=(0.0, 0.25, 0.8), size_m=(0.07, 0.07, 0.14)),
+    Entity(id="g3", name="goblet", category="goblet", color="red", at="rack",
+           p_WO=(3.0, 0.0, 1.0), size_m=(0.06, 0.06, 0.1)),
+)  # fmt: skip
+
+
+def test_of_several_the_whole_category_is_meant_and_of_one_what_is_called_so() -> None:
+    """*All the goblets* were the red one alone, as nothing else is just called goblet."""
+    found = {
+        count: ground(ObjectQuery(name="goblet", count=count), GOBLETS)  # type: ignore[arg-type]
+        for count in ("all", 3, None)
+    }
+    assert found["all"] == found[3] == Grounded("g1", ("g1", "g2", "g3"))
+    assert found[None] == Grounded("g3", ("g3",))
+    tallest = ground(ObjectQuery(name="goblet", superlative="tallest", at="table"), GOBLETS)
+    assert isinstance(tallest, Ambiguous)
+    assert tallest.candidates == ("g1", "g2")
+    lit = ground(ObjectQuery(name="goblet", color="yellow"), GOBLETS)
+    assert lit == Grounded("g1", ("g1",)), "no goblet is just called so that is yellow"
+
+
+def test_between_two_of_a_category_is_between_any_two_of_it() -> None:
+    candle = Entity(id="c1", name="candle", p_WO=(0.0, 0.0, 0.8), size_m=(0.05, 0.05, 0.1))
+    far = Entity(id="c2", name="candle", p_WO=(0.0, 0.7, 0.8), size_m=(0.05, 0.05, 0.1))
+    two = Relation(how="between", of=ObjectQuery(name="goblet", count=2))
+    found = ground(ObjectQuery(name="candle", relation=two), (candle, far, *GOBLETS))
+    assert found == Grounded("c1", ("c1",))
 
 
 def test_twins_are_told_apart_by_where_they_are() -> None:

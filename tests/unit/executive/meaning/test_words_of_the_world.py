@@ -236,6 +236,15 @@ def test_a_relative_description_is_settled_by_looking(said, spot, from_x_m):
     assert any(e.object_id == "oil" for look in part.looks for e in errands(look))
 
 
+def test_what_it_stands_beside_is_seen_with_it_and_not_looked_for_elsewhere():
+    """A goblet in another room was looked for, to know what is between those on this table."""
+    (part,) = parts("take the mug on the table between the bottles", Settle)
+    looked = [e.name for look in part.looks for e in errands(look)]
+    assert looked == ["look over the table"]
+    seen = board(blue=(0.0, 0.0), oil=(-0.3, 0.0), wine=(0.3, 0.0), red=(0.8, 0.0))
+    assert part.question(seen) == ("blue",)
+
+
 def test_nothing_that_stands_so_is_a_failure_with_what_was_seen():
     (part,) = parts("take the mug behind the oil bottle", Settle)
     found = part.question(board(oil=OIL, red=(0.0, 0.0)))
