@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from robot.messages import ObjectInfo, Obstacle, PersonInfo, Place, Shape, WorldMap
 from robot.se3 import SE3
@@ -193,8 +194,11 @@ def _wall_pieces(room: Room, side: str, half_m: float) -> list[tuple[float, floa
 
 def _surfaces(world: World, item: Furniture) -> list[Place]:
     X_WO, found = pose_of(item), list[Place]()
-    for surface in furniture.form(item).surfaces:
-        names = _board_names(item, surface.level) if surface.level else [item.title, *item.synonyms]
+    surfaces = furniture.form(item).surfaces
+    levels = [surface.level for surface in surfaces if surface.level]
+    for surface in surfaces:
+        level = surface.level
+        names = _board_names(item, level, levels) if level else [item.title, *item.synonyms]
         found.append(
             Place(
                 id=f"{item.id}_{surface.level}" if surface.level else item.id,
@@ -211,12 +215,18 @@ def _surfaces(world: World, item: Furniture) -> list[Place]:
     return found
 
 
-def _board_names(item: Furniture, level: str) -> list[str]:
-    """What one board is called: "lower shelf" of a shelf first, "bottom board" besides."""
+def _board_names(item: Furniture, level: str, levels: Sequence[str]) -> list[str]:
+    """What one board is called: "lower shelf" of a shelf first, "bottom board" besides.
+
+    Of more than three boards, which are counted, the first is the lower and the last the upper one.
+    """
     also = {"lower": ("bottom",), "upper": ("top",), "middle": ("centre", "center")}
+    if "lower" not in levels:
+        also = {levels[0]: ("lower", "bottom"), levels[-1]: ("upper", "top")}
     nouns = (item.title, "board") if item.title == "shelf" else (item.title, "shelf", "board")
-    names = [f"{word} {noun}" for word in (level, *also.get(level, ())) for noun in nouns]
-    return names + [f"{level} {synonym}" for synonym in item.synonyms]
+    words = (level, *also.get(level, ()))
+    names = [f"{word} {noun}" for word in words for noun in nouns]
+    return names + [f"{word} {synonym}" for word in words for synonym in item.synonyms]
 
 
 def _object_info(item: Object) -> ObjectInfo:

@@ -210,6 +210,21 @@ def test_boards_of_a_shelf_are_places_and_so_is_the_whole(kitchen):
     assert boards[0].clearance_m == pytest.approx(heights[1] - heights[0] - 0.02)
 
 
+@pytest.mark.parametrize(
+    ("heights", "top", "bottom"),
+    [("0.3, 0.6, 0.9, 1.2", "fourth", "first"), ("0.6, 0.9", "upper", "lower")],
+)
+def test_the_top_board_is_the_highest_however_many_there_are(tmp_path, heights, top, bottom):
+    text = GOOD.replace("boards_m: [0.6, 0.9]", f"boards_m: [{heights}], synonyms: [bookcase]")
+    path = tmp_path / "home.yaml"
+    path.write_text(text.replace("rack_lower", f"rack_{bottom}"), encoding="utf-8")
+    places = atlas.world_map(world.load(str(path))).places
+    for words, level in (("upper", top), ("top", top), ("lower", bottom), ("bottom", bottom)):
+        for noun in ("rack", "bookcase"):
+            called = [p.id for p in places if f"{words} {noun}" in (p.name, *p.synonyms)]
+            assert called == [f"rack_{level}"]
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_furniture_stays_in_its_footprint_and_offers_its_top(kind):
     item = Furniture(id="x", kind=kind, at_m=(0.0, 0.0))
