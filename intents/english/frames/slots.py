@@ -5,7 +5,7 @@ from msgspec.structs import replace
 from intents.english.phrases.complements import Clause, Complement, first_with
 from intents.english.phrases.phrase import Locative, NounPhrase, is_all
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
-from intents.english.trouble import Misfit, Unclear
+from intents.english.trouble import Misfit, Unclear, listing
 from intents.goals import ObjectQuery, Person
 
 _GROUND = ("floor", "ground", "carpet", "deck")
@@ -87,15 +87,28 @@ class Slots:
                 replace(o, count="all") if o.count is None and is_all(p) else o
                 for o, p in zip(found, bare.phrases, strict=True)
             ]
-        at = self.source()
-        return [replace(o, at=o.at or at) for o in found] if at else found
+        sources = self._sources()
+        if len(sources) > 1 and any(o.count != "all" for o in found):
+            raise Misfit(f"{_listed(sources)} are several places to take it from")
+        return [replace(o, at=o.at or at) for at in sources for o in found] if sources else found
 
     def source(self) -> str | None:
-        """The place after "from"."""
+        """The place after "from".
+
+        Raises:
+            Misfit: There are several.
+        """
+        sources = self._sources()
+        if len(sources) > 1:
+            raise Misfit(f"{_listed(sources)} are several places")
+        return sources[0] if sources else None
+
+    def _sources(self) -> list[str]:
+        """The places after "from": the mugs from the table *and the bar* are those of both."""
         source = self.take("from")
         if source and source.phrase.said in _GROUND and not source.phrase.exact:
-            return None  # pick it up off the floor
-        return to_place(source.phrase, self.scope, objects=True) if source else None
+            return []  # pick it up off the floor
+        return [to_place(p, self.scope, objects=True) for p in source.phrases] if source else []
 
     def loose_place(self) -> str | None:
         """A place that is not attached to a noun: "at the desk, find ..."."""
@@ -125,6 +138,10 @@ class Slots:
                 )
                 if kind != "times":
                     raise Misfit(f"I do not know what a {kind} means for “{self.clause.verb}”")
+
+
+def _listed(places: list[str]) -> str:
+    return listing([f"the {place}" for place in places], "and")
 
 
 def detach_place(phrase: NounPhrase) -> Locative | None:

@@ -71,6 +71,11 @@ def _goals(said: str) -> list[dict[str, object]] | str:
         ("collect all the pens on the desk", "put all pens on the desk"),
         ("do a round through all the rooms and then come back here to the archive",
          "go to every room, then go to the archive"),
+        ("put the pens from the desk and the cart on the oak bookcase",
+         "put all pens from the desk on the oak bookcase, "
+         "then put all pens from the cart on the oak bookcase"),
+        ("bring all cans from the desk and the gate to the cart",
+         "bring all cans from the desk to the cart, then bring all cans from the gate to the cart"),
         ("patrol all rooms twice", "patrol the archive, the hall and the reading room twice"),
         ("clear the pens off the desk and put them on the cart",
          "take all pens from the desk and put them on the cart"),
@@ -149,6 +154,12 @@ def test_any_of_them_are_all_of_them():
     (goal,) = outcome.goals
     assert isinstance(goal, If)
     assert to_builtins(goal.then) == _goals("bring all cans on the desk to the cart")
+
+
+@pytest.mark.parametrize("what", ["the pen", "two pens"])
+def test_one_thing_is_not_taken_from_two_places(what: str):
+    """The second place was dropped without a word."""
+    assert not isinstance(_goals(f"put {what} from the desk and the cart on the bookcase"), list)
 
 
 @pytest.mark.parametrize("verb", ["gather", "collect"])
