@@ -121,3 +121,27 @@ def test_nobody_is_served_through_a_wall_and_anybody_over_a_table(height_m, thro
     stances = stances_before(Body(stage.context), ann, distance_m=1.0)
     assert stances
     assert any(y < 2.4 for _, y, _ in stances) == through
+
+
+def test_before_somebody_between_a_doorway_and_a_sofa_there_is_somewhere_with_room():
+    """As it was where the torso touched the jamb: walls x0, y0, x1, y1 and the sofa [m]."""
+    boxes = [(-3.2, -2.08, 0.72, -2.0), (1.68, -2.08, 3.2, -2.0), (-0.08, -4.1, 0.0, -2.0),
+             (0.2, -4.05, 1.8, -3.25)]  # fmt: skip
+    things = tuple(
+        Obstacle(
+            id=f"box_{n}",
+            name="box",
+            X_WO=SE3((0.5 * (x0 + x1), 0.5 * (y0 + y1), 1.0)),
+            shapes=(Shape(kind="box", size_m=(x1 - x0, y1 - y0, 2.0)),),
+        )
+        for n, (x0, y0, x1, y1) in enumerate(boxes)
+    )
+    stage = Stage()
+    ann = msgspec.structs.replace(stage.puppet.world_map.people[0], X_WO=SE3((0.45, -2.7, 0.0)))
+    stage.puppet.world_map = msgspec.structs.replace(
+        stage.puppet.world_map, obstacles=things, people=(ann,)
+    )
+    stage.puppet.people["ann"] = ann.X_WO
+    stage.puppet.X_WS = SE3.from_xy_yaw(1.5, -0.3, math.pi)
+    body = Body(stage.context)
+    assert any(has_room(body, one) for one in stances_before(body, ann, distance_m=1.25))
