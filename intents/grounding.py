@@ -142,7 +142,10 @@ def ground(
     known = list(entities)
     fitting = _described(known, query) or _of_the_kind(known, query)
     if query.relation and fitting:
-        fitting = _related(fitting, query.relation, known, view)
+        every = _described(known, replace(query, count="all"))
+        fitting = _related(fitting, query.relation, known, view) or _related(
+            every, query.relation, known, view
+        )
     if query.except_:
         left_out = _denied(fitting, query.except_, known, view)
         fitting = [e for e in fitting if e not in left_out]

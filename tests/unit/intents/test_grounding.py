@@ -60,6 +60,13 @@ def test_between_two_of_a_category_is_between_any_two_of_it() -> None:
     assert found == Grounded("c1", ("c1",))
 
 
+def test_where_nothing_called_so_stands_so_one_of_the_category_may() -> None:
+    box = Entity(id="b1", name="box", p_WO=(0.0, -0.4, 0.8), size_m=(0.05, 0.05, 0.1))
+    beside = Relation(how="near", of=ObjectQuery(name="box"))
+    found = ground(ObjectQuery(name="goblet", relation=beside), (box, *GOBLETS))
+    assert found == Grounded("g1", ("g1",))
+
+
 def test_twins_are_told_apart_by_where_they_are() -> None:
     twin = Entity(id="c3", name="cup", color="red", at="sink")
     found = ground(ObjectQuery(name="cup", color="red"), (RED, twin))
