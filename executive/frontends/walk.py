@@ -13,7 +13,7 @@ from executive.journal import failures
 from executive.meaning import request
 from executive.runs import lidar_maps, runtimes, velocity_walk
 from executive.runs.runtimes import Setup
-from executive.runs.summary import late_periods
+from executive.runs.summary import clamped_words, late_periods
 from executive.runs.velocity_walk import VelocityCommand, Walked
 from robot.clock import WallClock
 from robot.exit_status import exit_status
@@ -75,7 +75,7 @@ def _words(walked: Walked, past_s: float, wall_s: float) -> list[str]:
         f"  walked {walked.walked_s:.1f} s: {walked.forward_m:.2f} m forward, "
         f"{walked.left_m:.2f} m to the left, {walked.turned_rad:.2f} rad turned (estimated)",
         f"  {past_s:.1f} s of robot time in {wall_s:.1f} s ({past_s / wall_s:.1f} x), "
-        f"{walked.clamped} commands clamped",
+        + clamped_words(walked.clamped, walked.most_clamped),
     ]
     if reason is not None:
         lines += failures.advice(failures.suggestion(reason.code, reason.suggestion))

@@ -35,6 +35,7 @@ class Summary(msgspec.Struct, frozen=True, kw_only=True):
     recoveries: int
     clamped: int
     refused: int
+    most_clamped: str = ""
     placed: tuple[Placed, ...] = ()
     expected: tuple[Expected, ...] = ()
     late: tuple[str, ...] = ()
@@ -90,6 +91,7 @@ def summary(session: Session, task: Part, *, since_s: float, wall_s: float) -> S
         recoveries=outcome.recoveries,
         clamped=body.clamped if body else 0,
         refused=body.refused if body else 0,
+        most_clamped=body.most_clamped if body else "",
         placed=_placed(
             [*_to_be_put(task), *session.executive.stage.own.put_down],
             session.setup.where.knowledge,
@@ -105,6 +107,11 @@ def summary(session: Session, task: Part, *, since_s: float, wall_s: float) -> S
 def _suggestion(reason: Failure) -> str:
     """What a person can do; there is always something."""
     return failures.suggestion(reason.code, reason.suggestion) or "say it again to begin anew"
+
+
+def clamped_words(count: int, most: str) -> str:
+    """How many values of commands the last clamp changed, and what was in the way of most."""
+    return f"{count} commands clamped" + (f" (most: {most})" if most else "")
 
 
 def late_periods(runtime: loop.Runtime) -> tuple[str, ...]:
@@ -175,7 +182,8 @@ def last_lines(summary: Summary) -> list[str]:
     pace = f"{summary.simulated_s:.1f} s of robot time in {summary.wall_s:.1f} s of wall time"
     lines.append(f"  {pace} ({summary.real_time_factor:.1f} x)")
     recovered = "1 recovery" if summary.recoveries == 1 else f"{summary.recoveries} recoveries"
-    lines.append(f"  {recovered}, {summary.clamped} commands clamped, {summary.refused} refused")
+    clamped = clamped_words(summary.clamped, summary.most_clamped)
+    lines.append(f"  {recovered}, {clamped}, {summary.refused} refused")
     lines += [f"  {late}" for late in summary.late]
     if summary.folder:
         lines.append(f"  journal: {summary.folder}/journal.jsonl")

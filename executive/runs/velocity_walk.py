@@ -35,6 +35,7 @@ class Walked(msgspec.Struct, frozen=True, kw_only=True):
     left_m: float
     turned_rad: float
     clamped: int
+    most_clamped: str = ""
 
 
 def check(command: VelocityCommand, description: RobotDescription) -> Failure | None:
@@ -90,6 +91,7 @@ def walk(
         left_m=round(path.left_m, 3),
         turned_rad=round(path.turned_rad, 3),
         clamped=body.clamped if body else 0,
+        most_clamped=body.most_clamped if body else "",
     )
 
 

@@ -75,6 +75,7 @@ class WaistGaze:
         self._half_aside_rad = VIEW_SHARE * math.atan(tangent * camera.width / camera.height)
         motors, turns = body.description.indices("waist"), body.turns("waist")
         self._dofs = {turn: int(body.qpos_of[i]) for i, turn in zip(motors, turns, strict=True)}
+        self._sign = -1.0 if body.waist_below else 1.0
         self._point: Array = np.zeros(3)
 
     def look(self, command: Look) -> None:
@@ -104,8 +105,8 @@ class WaistGaze:
             self.activity = Activity(id=self.activity.id, status="done")
 
     def _angle(self, data: Any, turn: Turn) -> float:
-        """Of one of the waist's joints, 0 where it has none of these."""
-        return float(data.qpos[self._dofs[turn]]) if turn in self._dofs else 0.0
+        """Of the trunk by one of the waist's joints, 0 where it has none of these."""
+        return self._sign * float(data.qpos[self._dofs[turn]]) if turn in self._dofs else 0.0
 
 
 def _beyond(angle_rad: float, limit_rad: float) -> float:

@@ -7,6 +7,7 @@ import math
 import mujoco
 import numpy as np
 
+from robot.control.trunk import Trunk
 from robot.control.walking.dcm import Point
 from robot.control.walking.footsteps import Sole, Target, Twist
 from robot.control.walking.gait import Gait
@@ -27,6 +28,7 @@ class Legs:
     Attributes:
         gait: the state machine of the feet.
         activity: about the last command.
+        trunk: how the trunk is turned against them.
         height_m: base height reference above the soles.
     """
 
@@ -43,16 +45,13 @@ class Legs:
         self._height_rate_m_s = 0.0
         count = whole.active_count
         self._posture: Array = np.zeros(count)  # of the active joints; only the waist's counts
-        self._waist = self._posture[whole.waist]
+        self.trunk = Trunk(body, self._posture[whole.waist])
         self._posture_kp: Array = np.zeros(count)
         self._balance = balance = self.description.balance
         self._tasks = tasks = balance.tasks
         self._posture_kd: Array = np.full(count, tasks.joints_1_s)
         self._posture_kp[whole.waist] = tasks.waist.kp_1_s2
         self._posture_kd[whole.waist] = tasks.waist.kd_1_s
-        self._waist_goal = self._waist.copy()
-        self._waist_moves = False
-        self._waist_turns = body.turns("waist")
         self._posed = False
         self._whole = whole
         self._upright: Array = np.zeros(4)
@@ -69,8 +68,7 @@ class Legs:
         height = nominal if command.height_m is None else command.height_m
         balance = self._balance
         self._height_goal_m = max(balance.lowest_base_m, min(balance.highest_base_m, height))
-        self._waist_goal = self._waist_posture(command.yaw_rad, command.pitch_rad)
-        self._waist_moves = True
+        self.trunk.turn(command.yaw_rad, command.pitch_rad)
         self._posed = command.yaw_rad != 0.0 or command.pitch_rad != 0.0
         self._end_walk()
         self.gait.wish = None if self.gait.phase == "stand" else Twist()
@@ -115,29 +113,21 @@ class Legs:
 
     def turn_waist(self, yaw_rad: float, pitch_rad: float) -> bool:
         """Turn the waist to look about; False where it is there already, or goes no further."""
-        self._waist_goal = self._waist_posture(yaw_rad, pitch_rad)
-        self._waist_moves = float(np.abs(self._waist_goal - self._waist).max()) > 1e-3
-        return self._waist_moves
+        self.trunk.turn(yaw_rad, pitch_rad)
+        self.trunk.moves = self.trunk.differs()
+        return self.trunk.moves
 
     def _start(self, command_id: int) -> None:
         self.activity = Activity(id=command_id, status="running")
 
     def _stand_tall(self) -> None:
         self._height_goal_m = self.description.walking.base_height_m
-        self._waist_goal = np.zeros_like(self._waist)
-        self._waist_moves = True
+        self.trunk.turn(0.0, 0.0)
         self._posed = False
 
     def _end_walk(self) -> None:
         self._expires_s = math.inf
         self._twist_goal = Twist()
-
-    def _waist_posture(self, yaw_rad: float, pitch_rad: float) -> Array:
-        wanted = {"roll": 0.0, "pitch": pitch_rad, "yaw": yaw_rad}
-        goal = np.array([wanted[turn] for turn in self._waist_turns])
-        motors = self.description.indices("waist")
-        lower, upper = self.body.lower_rad[motors], self.body.upper_rad[motors]
-        return np.minimum(np.maximum(goal, lower), upper)
 
     # --- every tick ----------------------------------------------------------------------------
 
@@ -162,11 +152,7 @@ class Legs:
         change = max(-step, min(step, self._height_goal_m - self.height_m))
         self.height_m += change
         self._height_rate_m_s = change / dt_s
-        if self._waist_moves:
-            turn = self._balance.waist_rad_s * dt_s
-            change = self._waist_goal - self._waist
-            self._waist += np.minimum(np.maximum(change, -turn), turn)
-            self._waist_moves = float(np.abs(change).max()) > 1e-9
+        self.trunk.ramp(self._balance.waist_rad_s * dt_s)
         if self._now_s > self._expires_s:
             self._twist_goal = Twist()
         wish = self.gait.wish
@@ -194,7 +180,7 @@ class Legs:
         if math.isfinite(self._expires_s) and self._now_s <= self._expires_s:
             return
         there = abs(self.height_m - self._height_goal_m) < 1e-3
-        if there and not self._waist_moves:
+        if there and not self.trunk.moves:
             self.activity = Activity(id=self.activity.id, status="done")
             if isinstance(self.gait.wish, Twist):
                 self.gait.wish = None
@@ -233,11 +219,10 @@ class Legs:
         return x, y, task.kp_1_s2 * error + task.kd_1_s * rate_error
 
     def _own_acc(self, dynamics: Dynamics, heading_rad: float) -> Array:
-        """Of the pelvis: upright, facing the heading of the feet; of the joints: the posture."""
+        """Of the base: over the feet as the trunk wants it; of the joints: the posture."""
         data, whole = dynamics.data, self._whole
-        half = 0.5 * heading_rad
         wanted, error = self._upright, self._tilt
-        wanted[0], wanted[3] = math.cos(half), math.sin(half)
+        self.trunk.write_base(wanted, heading_rad)
         qpos, qvel = data.qpos, data.qvel
         mujoco.mju_subQuat(error, wanted, qpos[3:7])
         task = self._tasks.pelvis

@@ -16,12 +16,15 @@ OVERSPEED = 1.6
 """Faster than this part of its limit, for so many periods, no joint gets unless something broke."""
 OVERSPEED_CYCLES = 3
 
+CLAMPED = ("range", "speed", "torque")
+
 
 class Limits:
     """Clamps positions, velocities and torques, refuses what is not finite, and counts both.
 
     Attributes:
         clamped: motor values clamped so far.
+        most_clamped: the motor and the limit of most of them, with how many; empty while none was.
         refused: commands refused so far.
         tripped: why the motors must damp, empty while all is well; latched.
     """
@@ -30,6 +33,7 @@ class Limits:
         """Take the limits from the description and the MJCF's joint ranges."""
         self.body = body
         self.clamped = 0
+        self.most_clamped = ""
         self.refused = 0
         self.tripped = ""
         self._in_a_row = 0
@@ -50,6 +54,7 @@ class Limits:
         self._drive: Array = np.zeros(body.count)  # what the measured command gives at rest at 0
         self._product: Array = np.zeros(body.count)
         self._fast_in_a_row = 0
+        self._clamps = np.zeros((len(CLAMPED), body.count), dtype=np.int64)
 
     def reset(self) -> None:
         """Forget a trip."""
@@ -139,9 +144,10 @@ class Limits:
         total = feedback + command.tau_ff
         kept = np.minimum(np.maximum(total, -torque), torque)
         tau_ff = np.where(kept == total, command.tau_ff, kept - feedback)
-        self.clamped += int(
-            np.count_nonzero(q_des != command.q_des)
-            + np.count_nonzero(qd_des != command.qd_des)
-            + np.count_nonzero(kept != total)
-        )
+        self._clamps += (q_des != command.q_des, qd_des != command.qd_des, kept != total)
+        self.clamped = int(self._clamps.sum())
+        if self.clamped:
+            kind, motor = divmod(int(self._clamps.argmax()), body.count)
+            name, count = body.description.motor_names[motor], int(self._clamps[kind, motor])
+            self.most_clamped = f"{name}'s {CLAMPED[kind]}, {count} times"
         command.q_des, command.qd_des, command.tau_ff = q_des, qd_des, tau_ff

@@ -72,7 +72,9 @@ class BodyState(Message, frozen=True, kw_only=True):
     `q_rad`, `qd_rad_s`, `tau_nm` are in motor order (the description's), fingers in m, m/s, N.
     `X_NS` is the stance: midpoint and mean heading of the soles. Points in N [m]. `since_s` is when
     this controller took the motors over: another value, another controller, with an N of its own;
-    what it knows of the IMU goes over to that. `steps` are the landings that are planned, in order.
+    what it knows of the IMU goes over to that. `arm_ends_N` says where
+    arms end that have no hand. `most_clamped` is the motor and the limit that most of
+    the `clamped` values were beyond. `steps` are the landings that are planned, in order.
     """
 
     mode: Mode
@@ -93,12 +95,14 @@ class BodyState(Message, frozen=True, kw_only=True):
     hands: dict[Side, HandState]
     activities: dict[Channel, Activity]
     clamped: int = 0
+    most_clamped: str = ""
     refused: int = 0
     temperature_c: tuple[float, ...] = ()
     alarms: tuple[MotorAlarm, ...] = ()
     failure: Failure | None = None
     since_s: float = 0.0
     imu: ImuBias | None = None
+    arm_ends_N: dict[Side, Vector3] = msgspec.field(default_factory=dict[Side, Vector3])
     steps: tuple[Landing, ...] = ()
 
 

@@ -6,6 +6,7 @@ an equality couples (the second finger of a hand) are filled in from the motors.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import mujoco
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 
 from robot.errors import DescriptionError, Problem
 from robot.messages import Side
-from robot.model import mjcf
+from robot.model import measures, mjcf
 from robot.model.description import RobotDescription
 from robot.se3 import SE3, Array
 
@@ -22,6 +23,15 @@ Turn = Literal["roll", "pitch", "yaw"]
 """About which axis of its link a joint turns: x, y, z."""
 SIDES: tuple[Side, Side] = ("left", "right")
 TURNS: tuple[Turn, ...] = ("roll", "pitch", "yaw")
+
+
+@dataclass(frozen=True, slots=True)
+class Lean:
+    """Who turns the trunk against the feet [rad]: waist, shape (its joints,), and base."""
+
+    waist_rad: Array
+    base_yaw_rad: float
+    base_pitch_rad: float
 
 
 class BodyModel:
@@ -34,6 +44,8 @@ class BodyModel:
         lower_rad, upper_rad: joint range of each motor, shape (n,).
         torque_limit_nm, velocity_limit_rad_s: shape (n,).
         kp, kd: position gains of the description, shape (n,).
+        bare_arms: sides of the arms that have no hand.
+        waist_below: whether the legs hang on the waist: the base is then the trunk, not the pelvis.
     """
 
     def __init__(self, description: RobotDescription) -> None:
@@ -66,6 +78,11 @@ class BodyModel:
             side: self.site_id(hand.grasp_site) for side, hand in description.hands.items()
         }
         self._check_postures()
+        self._arm_ends = {side: self._arm_end(side) for side in description.arm_sides}
+        self.bare_arms = [side for side in self._arm_ends if side not in description.hands]
+        self._waist: list[int] = description.indices("waist")
+        self._waist_turns = self.turns("waist")
+        self.waist_below = self._is_waist_below()
         couplings = self._couplings()
         order = np.argsort(np.concatenate([self.qpos_of, couplings[0]]))
         self._joint_qpos = as_index(np.concatenate([self.qpos_of, couplings[0]])[order])
@@ -122,6 +139,46 @@ class BodyModel:
             for i in self.description.indices(group)
         ]
         return [TURNS[int(np.argmax(np.abs(axis)))] for axis in axes]
+
+    def arm_end(self, data: Any, side: Side) -> Array:
+        """Where the last link of an arm ends, in the frame of the base pose [m], shape (3,)."""
+        link, p = self._arm_ends[side]
+        return data.xmat[link].reshape(3, 3) @ p + data.xpos[link]
+
+    def _arm_end(self, side: Side) -> tuple[int, Array]:
+        description = self.description
+        last = description.motors[description.groups[f"{side}_arm"][-1]].joint
+        link = int(self.model.jnt_bodyid[self.joint_id(last)])
+        return link, measures.far_end(self.model, link)
+
+    def leaning(self, yaw_rad: float, pitch_rad: float) -> Lean:
+        """How the trunk gets this yaw and pitch against the feet.
+
+        By the waist's joints, inside their ranges. Where none of them bends forward, the whole base
+        does, about the hips. A trunk that is the base itself turns as a whole, and the waist under
+        it as far back: the pelvis stays where it is.
+        """
+        sign = -1.0 if self.waist_below else 1.0
+        wanted = {"roll": 0.0, "pitch": sign * pitch_rad, "yaw": sign * yaw_rad}
+        goal = np.array([wanted[turn] for turn in self._waist_turns])
+        lower, upper = self.lower_rad[self._waist], self.upper_rad[self._waist]
+        waist = np.minimum(np.maximum(goal, lower), upper)
+        by_base = self.waist_below or "pitch" not in self._waist_turns
+        turned_rad = -sum(
+            float(value)
+            for value, turn in zip(waist, self._waist_turns, strict=True)
+            if turn == "yaw" and self.waist_below
+        )
+        return Lean(waist, turned_rad, pitch_rad if by_base else 0.0)
+
+    def _is_waist_below(self) -> bool:
+        motors, model = self.description.motors, self.model
+        names = self.description.groups["waist"]
+        waist = {int(model.jnt_bodyid[self.joint_id(motors[name].joint)]) for name in names}
+        body = self.foot_body["left"]
+        while body and body not in waist:
+            body = int(model.body_parentid[body])
+        return body in waist
 
     def _couplings(self) -> tuple[Any, Any, Any, Any]:
         """Joints tied to a motor's joint by a linear joint equality."""

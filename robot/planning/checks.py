@@ -297,8 +297,7 @@ class Checker:
         if share == 1.0:
             return leaning.X_SB, leaning.q.copy()
         upright = self.body.standing(UPRIGHT, self.side)
-        p = (1 - share) * np.array(upright.X_SB.p) + share * np.array(leaning.X_SB.p)
-        X_SB = SE3((float(p[0]), float(p[1]), float(p[2])))
+        X_SB = upright.X_SB.towards(leaning.X_SB, share)
         return X_SB, (1 - share) * upright.q + share * leaning.q
 
     def _sweep(self, scene: Scene, q: Array, finger: float, clearance_m: float) -> str | None:

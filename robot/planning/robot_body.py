@@ -52,8 +52,7 @@ class Arm:
         """
         description, model = body.description, body.model
         names = description.groups[f"{side}_arm"]
-        first = model.jnt_bodyid[body.joint_id(description.motors[names[0]].joint)]
-        root = model.body(int(model.body_parentid[first])).name
+        root = _root(body, f"{side}_arm")
         self.side: Side = side
         last = model.body(int(model.jnt_bodyid[body.joint_id(description.motors[names[-1]].joint)]))
         hand = description.hands.get(side)
@@ -81,7 +80,8 @@ class Body:
         joints = [motor.joint for motor in description.motors.values()]
         self._legs: dict[Side, tuple[Chain, Indices]] = {}
         for side in SIDES:
-            leg = Chain(self.model.model, description.base_body, description.feet[side].sole_site)
+            root = _root(self.model, f"{side}_leg")
+            leg = Chain(self.model.model, root, description.feet[side].sole_site)
             self._legs[side] = (leg, np.array([joints.index(name) for name in leg.joints]))
         self._standings: dict[tuple[BodyPosture, Side | None], Standing] = {}
 
@@ -125,25 +125,33 @@ class Body:
     def stand(self, posture: BodyPosture, q: Array) -> Standing:
         """The same with arms and head as in `q`, shape (motors,).
 
-        Leaning, or stretching an arm out, moves the pelvis back; the legs follow by inverse
+        Leaning, or stretching an arm out, moves the base back; the legs follow by inverse
         kinematics.
         """
         description, body = self.description, self.model
         walking = description.walking
         height = posture.height_m or walking.base_height_m
         q = q.copy()
-        wanted = {"roll": 0.0, "pitch": posture.pitch_rad, "yaw": posture.yaw_rad}
-        for motor, turn in zip(description.indices("waist"), body.turns("waist"), strict=True):
-            q[motor] = wanted[turn]
+        lean = body.leaning(posture.yaw_rad, posture.pitch_rad)
+        q[description.indices("waist")] = lean.waist_rad
+        base = SE3.from_rpy(0.0, lean.base_pitch_rad, lean.base_yaw_rad, (0.0, 0.0, 0.0))
         data = body.data()
+        body.write_joints(data, q)
+        mujoco.mj_kinematics(body.model, data)
+        X_OB = _body_pose(body, data, description.base_body)
+        hips = {
+            side: base @ X_OB.inverse() @ _body_pose(body, data, leg.body)
+            for side, (leg, _) in self._legs.items()
+        }
         at = np.array([0.0, 0.0, height])
         for _ in range(8):
             for side in SIDES:
                 leg, motors = self._legs[side]
                 aside = (0.5 if side == "left" else -0.5) * walking.stance_width_m
-                sole = np.array([[0.0, aside, 0.0]]) - at
-                q[motors] = leg.solve(np.eye(3)[None], sole, q[motors][None], iterations=60).q[0]
-            body.write_base(data, SE3((float(at[0]), float(at[1]), height)))
+                X_HS = hips[side].inverse() @ SE3((-float(at[0]), aside - float(at[1]), -height))
+                goal, p = X_HS.rotation()[None], np.array([X_HS.p])
+                q[motors] = leg.solve(goal, p, q[motors][None], iterations=60).q[0]
+            body.write_base(data, SE3((float(at[0]), float(at[1]), height), base.quat_wxyz))
             body.write_joints(data, q)
             mujoco.mj_kinematics(body.model, data)
             mujoco.mj_comPos(body.model, data)
@@ -154,7 +162,8 @@ class Body:
         trunks: dict[Side, SE3] = {
             side: _body_pose(body, data, arm.chain.body) for side, arm in self.arms.items()
         }
-        return Standing(SE3((float(at[0]), float(at[1]), height)), q, trunks)
+        X_SB = SE3((float(at[0]), float(at[1]), height), base.quat_wxyz)
+        return Standing(X_SB, q, trunks)
 
     def _reaching(self, side: Side) -> Array:
         """Joints of an arm with its hand out level in front, above the height of the elbow."""
@@ -165,6 +174,13 @@ class Body:
         X_TG = standing.X_ST[side].inverse() @ SE3((ahead, sign * aside, height))
         q = self.nominal[arm.motors][None]
         return arm.chain.solve(X_TG.rotation()[None], np.array([X_TG.p]), q, iterations=60).q[0]
+
+
+def _root(body: BodyModel, group: str) -> str:
+    """The link that a leg or an arm hangs on."""
+    first = body.description.motors[body.description.groups[group][0]].joint
+    link = body.model.jnt_bodyid[body.joint_id(first)]
+    return str(body.model.body(int(body.model.body_parentid[link])).name)
 
 
 def _body_pose(body: BodyModel, data: Any, name: str) -> SE3:

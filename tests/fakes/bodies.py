@@ -44,6 +44,15 @@ def neckless(folder: Path) -> RobotDescription:
     return replace(robot, name="neckless", gaze=gaze, folder=str(folder), mjcf_folder=str(folder))
 
 
+def stiff(folder: Path) -> RobotDescription:
+    """A waist that only turns: it bends forward at its hips."""
+    robot = _without_motors(_without_motors(JUNO, "waist_roll"), "waist_pitch")
+    text = Path(JUNO.source.path).read_text()
+    text = re.sub(r'<(joint|general) name="waist_(roll|pitch)"[^>]*/>', "", text)
+    (folder / "juno.xml").write_text(text)
+    return replace(robot, name="stiff", folder=str(folder), mjcf_folder=str(folder))
+
+
 def smaller(folder: Path, scale: float = 0.9) -> RobotDescription:
     """Every length smaller, the masses as they are."""
     spec = mujoco.MjSpec.from_file(JUNO.source.path)

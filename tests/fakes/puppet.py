@@ -164,7 +164,12 @@ class Puppet:
             com_N=X_NB.p,
             dcm_N=X_NB.p[:2],
             zmp_N=X_NB.p[:2],
-            hands={side: self._hand(side) for side in ("left", "right")},
+            hands={side: self._hand(side) for side in self.description.hands},
+            arm_ends_N={
+                side: (self.X_WN.inverse() @ self.X_WS @ self._hands[side]).p
+                for side in self.description.arm_sides
+                if side not in self.description.hands
+            },
             activities=dict(self._activities),
             since_s=self.since_s,
         )

@@ -65,7 +65,7 @@ class Stage:
         self.context = SkillContext(
             link=self.puppet,
             planner=self.planner,
-            description=DESCRIPTION,
+            description=self.puppet.description,
             say=self.said.append,
         )
 

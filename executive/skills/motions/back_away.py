@@ -30,11 +30,11 @@ def back_away(body: Body, side: Side, *, swing_m: float = 0.0) -> Script[None]:
     The hand is about to come out by `swing_m`, towards whoever is there. Where there is no free
     floor to step to, it stays: the arm then waits for them to step back.
     """
-    person = somebody_near(body, body.X_WG(side).p, within_m=ZONE_M + swing_m)
+    person = somebody_near(body, body.p_WE(side), within_m=ZONE_M + swing_m)
     if person is None:
         return
     clear_m = CLEAR_M + SPARE_M + swing_m
-    yield from _step_back(body, person, _retreat(body, body.X_WG(side).p, person, clear_m=clear_m))
+    yield from _step_back(body, person, _retreat(body, body.p_WE(side), person, clear_m=clear_m))
 
 
 def make_way(body: Body, person: PersonInfo) -> Script[bool]:

@@ -23,7 +23,7 @@ from robot.messages import (
     WorldMap,
     WorldState,
 )
-from robot.se3 import SE3
+from robot.se3 import SE3, Vector3
 
 SILENT_AFTER_S = 1.0
 WORLD_SILENT_AFTER_S = 2.0
@@ -144,6 +144,13 @@ class Body:
     def X_WG(self, side: Side) -> SE3:
         """The grasp frame of a hand in the world."""
         return self.X_WN @ self.hand(side).X_NG
+
+    def p_WE(self, side: Side) -> Vector3:
+        """Where an arm ends in the world: at its grasp point, or, without a hand, its last link."""
+        if side in self.state.hands:
+            return self.X_WG(side).p
+        x_m, y_m, z_m = self.X_WN.apply(self.state.arm_ends_N[side]).tolist()
+        return (x_m, y_m, z_m)
 
     def arm_rad(self, side: Side) -> tuple[float, ...]:
         """Joint positions of an arm, in its group's order."""

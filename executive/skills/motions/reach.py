@@ -156,7 +156,7 @@ def _finish_arm(body: Body, side: Side, command_id: int, *, timeout_s: float) ->
         activity = body.activity(ARM_CHANNEL[side], command_id)
         if activity is not None and activity.status == "done":
             return True
-        if side in body.state.hands and near_hand(body, body.X_WG(side).p) is not None:
+        if near_hand(body, body.p_WE(side)) is not None:
             yield from _yield_to_people(body, side)
             return False
         if body.now_s > end_s or (activity is not None and activity.status == "failed"):
@@ -169,7 +169,7 @@ def _finish_arm(body: Body, side: Side, command_id: int, *, timeout_s: float) ->
 def _yield_to_people(body: Body, side: Side) -> Script[None]:
     """Hold the arm where it is until there is room again."""
     hold_arm(body, side)
-    yield from wait_for_room(body, body.X_WG(side).p)
+    yield from wait_for_room(body, body.p_WE(side))
 
 
 def _off_m(body: Body, side: Side, X_WG: SE3) -> float:

@@ -1,4 +1,4 @@
-"""The controller on other bodies: variants of Juno, and the Unitree G1 where its model is found."""
+"""The controller on other bodies: variants of Juno, and others where their models are found."""
 
 import math
 
@@ -10,18 +10,20 @@ from robot.se3 import SE3
 from tests.fakes import bodies
 
 VARIANTS = ("handless", "neckless", "smaller")
+PUBLISHED = ("g1", "t1")
 
 
 @pytest.fixture(scope="module")
 def robot(request, tmp_path_factory) -> str:
     """The file of a body, or its name."""
-    if request.param == "g1":
+    if request.param in PUBLISHED:
         return bodies.shipped_or_skip(request.param)
     folder = tmp_path_factory.mktemp(request.param)
     variant = {
         "handless": lambda _: bodies.handless(),
         "neckless": bodies.neckless,
         "smaller": bodies.smaller,
+        "stiff": bodies.stiff,
     }[request.param]
     return bodies.written(variant(folder), folder)
 
@@ -36,7 +38,7 @@ def on(*names: str):
     return pytest.mark.parametrize("robot", names, indirect=True)
 
 
-@on(*VARIANTS, "g1")
+@on(*VARIANTS, *PUBLISHED)
 def test_it_walks_and_stops_without_falling_or_being_clamped(robot):
     rig = standing(robot)
     rig.send(Walk, forward_m_s=0.3, left_m_s=0.0, turn_rad_s=0.0, hold_s=4.0)
@@ -46,7 +48,7 @@ def test_it_walks_and_stops_without_falling_or_being_clamped(robot):
     assert rig.loop.state().clamped == 0
 
 
-@on(*VARIANTS, "g1")
+@on(*VARIANTS, *PUBLISHED)
 def test_it_squats_and_leans_within_its_limits(robot):
     rig = standing(robot)
     balance = rig.robot.balance
@@ -57,6 +59,25 @@ def test_it_squats_and_leans_within_its_limits(robot):
     for lean_rad in (balance.lean_forward_rad, balance.lean_back_rad):
         rig.send(Stand, pitch_rad=lean_rad)
         assert rig.wait("legs", 8.0) == "done"
+    assert rig.loop.state().clamped == 0
+
+
+def trunk_rad(rig) -> tuple[float, float]:
+    """Truly: its turn against the feet, and how far it leans forward."""
+    trunk = rig.plant.data.body(rig.robot.torso_body).xmat.reshape(3, 3)
+    yaw_rad = math.atan2(trunk[1, 0], trunk[0, 0]) - rig.X_WS.yaw_rad
+    return yaw_rad, math.atan2(-trunk[2, 0], trunk[2, 2])
+
+
+@on("stiff", *PUBLISHED)
+def test_a_lean_leans_the_trunk_and_a_turn_turns_it(robot):
+    rig = standing(robot)
+    balance = rig.robot.balance
+    for yaw_rad, pitch_rad in ((0.0, balance.lean_forward_rad), (balance.turn_rad, 0.0)):
+        rig.send(Stand, yaw_rad=yaw_rad, pitch_rad=pitch_rad)
+        assert rig.wait("legs", 8.0) == "done"
+        assert rig.run(1.0)
+        assert trunk_rad(rig) == pytest.approx((yaw_rad, pitch_rad), abs=0.08)
     assert rig.loop.state().clamped == 0
 
 

@@ -107,6 +107,14 @@ def test_flat_keeps_place_and_heading_on_the_floor(X):
     np.testing.assert_allclose(flat.rotation()[:, 2], [0.0, 0.0, 1.0], atol=1e-12)
 
 
+@given(poses, st.floats(-0.6, 0.6), st.floats(0.0, 1.0))
+def test_part_of_the_way_to_a_pose_is_part_of_its_turn_and_of_its_distance(X_AB, turn, share):
+    X_AC = X_AB @ SE3.from_xy_yaw(0.3, -0.2, turn)
+    X_BD = X_AB.inverse() @ X_AB.towards(X_AC, share)
+    assert X_BD.p == pytest.approx((0.3 * share, -0.2 * share, 0.0), abs=1e-9)
+    assert X_BD.yaw_rad == pytest.approx(share * turn, abs=2e-3)
+
+
 @given(st.floats(-1000.0, 1000.0))
 def test_wrapping_keeps_the_direction(angle):
     wrapped = wrap_angle(angle)

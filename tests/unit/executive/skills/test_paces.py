@@ -28,7 +28,7 @@ class Outlook:
         return None
 
 
-@pytest.mark.parametrize("name", ["juno", "g1"])
+@pytest.mark.parametrize("name", ["juno", "g1", "t1"])
 @pytest.mark.parametrize("kind", [one for one in get_args(GestureKind) if one != "point"])
 def test_a_gesture_has_a_forecast(name: str, kind: GestureKind):
     told = Gesture.forecast(GestureParams(kind=kind), Outlook(name))  # type: ignore[arg-type]

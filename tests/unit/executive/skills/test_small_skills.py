@@ -13,9 +13,11 @@ from executive.skills.say import SayParams
 from executive.skills.search import SearchParams
 from executive.skills.stop import StopParams
 from executive.skills.wait import WaitParams
-from robot.messages import Look, OneLeg, Stand, Walk
+from robot.messages import Look, MoveArm, OneLeg, Stand, Walk
 from robot.se3 import SE3
-from tests.fakes.stage import Stage
+from tests.fakes.bodies import handless
+from tests.fakes.puppet import Puppet
+from tests.fakes.stage import Stage, kitchen
 
 
 @pytest.fixture
@@ -162,6 +164,21 @@ def test_who_lies_already_does_not_fall_again(stage, wanted):
     reason = stage.run(wanted).failure
     assert reason.code == "fallen"
     assert reason.cause == "the robot lies on the floor"
+
+
+@pytest.mark.parametrize("kind", ["wave", "raise_both_arms"])
+def test_arms_without_hands_wave(kind):
+    stage = Stage(Puppet(handless(), {}, kitchen()))
+    assert stage.run(GestureParams(kind=kind)).status == "succeeded"
+    assert stage.commands(MoveArm)
+
+
+def test_an_arm_without_a_hand_waits_for_people_too():
+    stage = Stage(Puppet(handless(), {}, kitchen()))
+    x_m, y_m, _ = stage.puppet.X_WN.apply(stage.puppet.body().arm_ends_N["right"])
+    stage.puppet.people["ann"] = SE3((x_m + 0.3, y_m, 0.0))
+    stage.run(GestureParams(kind="wave"), until_phase="waiting for Ann")
+    assert any(phase.startswith("waiting for Ann") for phase in stage.phases)
 
 
 def test_who_falls_says_what_it_was_doing(stage):

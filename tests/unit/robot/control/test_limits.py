@@ -75,6 +75,14 @@ def test_what_is_clamped_is_counted(body, limits, field, value):
     assert limits.refused == 0
 
 
+def test_the_limit_that_was_in_the_way_most_is_named(body, limits):
+    for motor, tau_nm in ((0, 999.0), (3, 999.0), (3, -999.0)):
+        command = hold(body, at_rest(body))
+        command.tau_ff[motor] = tau_nm
+        limits.apply(command, at_rest(body))
+    assert limits.most_clamped == f"{body.description.motor_names[3]}'s torque, 2 times"
+
+
 @pytest.mark.filterwarnings("ignore:invalid value encountered:RuntimeWarning")  # inf x 0
 @pytest.mark.parametrize("field", ["q_des", "qd_des", "tau_ff", "kp", "kd"])
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])

@@ -1,13 +1,38 @@
 """What a description says must be within reach of its legs and arms."""
 
+import pytest
 from msgspec.structs import replace
 
+from robot.model.description import load
 from robot.planning.fit import misfits
-from tests.fakes.bodies import JUNO, handless
+from robot.planning.requests import BodyPosture
+from robot.planning.robot_body import Body
+from robot.se3 import rotation_vector
+from tests.fakes.bodies import JUNO, handless, shipped_or_skip, stiff
 
 
 def test_what_is_shipped_fits():
     assert misfits(JUNO) == []
+
+
+@pytest.mark.parametrize("name", ["g1", "t1"])
+def test_the_bodies_of_others_fit(name):
+    assert misfits(load(shipped_or_skip(name))) == []
+
+
+def test_a_waist_that_only_turns_leans_from_the_hips(tmp_path):
+    body = Body(stiff(tmp_path))
+    X_SB = body.standing(BodyPosture(pitch_rad=0.3, yaw_rad=0.4)).X_SB
+    assert X_SB.yaw_rad == pytest.approx(0.0)
+    assert rotation_vector(X_SB.rotation()) == pytest.approx((0.0, 0.3, 0.0))
+    assert misfits(body.description) == []
+
+
+def test_a_trunk_over_its_waist_turns_as_a_whole():
+    body = Body(load(shipped_or_skip("t1")))
+    standing = body.standing(BodyPosture(pitch_rad=0.2, yaw_rad=0.4))
+    assert standing.X_SB.yaw_rad == pytest.approx(0.4)
+    assert standing.q[body.motor("waist")] == pytest.approx(-0.4)
 
 
 def test_a_body_without_hands_fits():
