@@ -1,7 +1,8 @@
 """Where the known objects and people are believed to be, and which are gone from where they were.
 
 An object in a closed hand goes where the hand goes: the fingers are as far apart as it is wide, and
-it is between them.
+it is between them. Once they have come to rest on it their own opening says whether they still have
+it: how wide it looks changes with every look.
 """
 
 from __future__ import annotations
@@ -36,6 +37,8 @@ WAIST_M, WAIST_RADIUS_M = 0.9, 0.12
 SAME_PERSON_M = 0.6
 WALKS_M_S, LOST_S = 0.4, 2.5
 """How far somebody may have walked whom no sensor made out for a moment, no longer than that."""
+RESTS_M = 0.001
+"""An opening that has changed by less since it was felt last is at rest."""
 UNSEEN_S = 0.5
 FORGET_S = 20.0
 
@@ -49,6 +52,22 @@ class Hand:
     gripping: Gripping
 
 
+class Hold(NamedTuple):
+    """An object in a hand.
+
+    Attributes:
+        side: of the hand.
+        X_GO: the object in its grasp frame.
+        opening_m: of its fingers when they were felt last, or came to rest.
+        rests: whether they have come to rest on it.
+    """
+
+    side: Side
+    X_GO: SE3
+    opening_m: float
+    rests: bool = False
+
+
 class WorldModel:
     """One track an object; sightings move it, clear views of an empty place mark it missing."""
 
@@ -58,7 +77,7 @@ class WorldModel:
         self._people: dict[str, Track] = {}
         self._shapes: dict[str, Shape] = {}
         self._misses: dict[str, int] = {}
-        self._holds: dict[str, tuple[Side, SE3]] = {}  # object to hand and X_GO
+        self._holds: dict[str, Hold] = {}
         self._just_seen: set[str] = set()
         self._around: dict[str, frozenset[str]] = {}  # by person: what stood anywhere by then
 
@@ -77,7 +96,7 @@ class WorldModel:
 
     def held(self) -> dict[str, Side]:
         """Which objects the hands have."""
-        return {name: side for name, (side, _) in self._holds.items()}
+        return {name: hold.side for name, hold in self._holds.items()}
 
     def tracks(self) -> tuple[Track, ...]:
         """Every object's track, in the order they became known."""
@@ -141,19 +160,18 @@ class WorldModel:
             shape = self._shapes.get(name)
             if track.X_WO is None or shape is None:
                 continue
-            hold = self._holds.get(name) or _hold(hands, shape, track.X_WO)
-            if hold is None:
+            before = self._holds.get(name) or _hold(hands, shape, track.X_WO)
+            if before is None:
                 continue
-            side, X_GO = hold
-            hand, seen = hands.get(side), name in self._just_seen
-            holds = hand is not None and _fits(hand, shape, X_GO)
-            if hand is not None and holds and not (seen and _is_far(hand, shape, track.X_WO)):
-                self._holds[name] = hold
-                X_WO = hand.X_WG @ X_GO
-                self._tracks[name] = msgspec.structs.replace(track, X_WO=X_WO, held_by=side)
-            else:
-                del self._holds[name]
+            hand, seen = hands.get(before.side), name in self._just_seen
+            hold = None if hand is None else _still(before, hand, shape)
+            if hand is None or hold is None or (seen and _is_far(hand, shape, track.X_WO)):
+                self._holds.pop(name, None)
                 self._tracks[name] = msgspec.structs.replace(track, held_by=None)
+            else:
+                self._holds[name] = hold
+                X_WO = hand.X_WG @ hold.X_GO
+                self._tracks[name] = msgspec.structs.replace(track, X_WO=X_WO, held_by=hold.side)
         self._just_seen.clear()
 
     def bump(self, obstacles: tuple[Obstacle, ...], now_s: float) -> None:
@@ -219,14 +237,27 @@ def _place(
         misses[sighting.id] = 0
 
 
-def _hold(hands: Mapping[Side, Hand], shape: Shape, X_WO: SE3) -> tuple[Side, SE3] | None:
-    """The hand that has an object between its fingers, and the object in it (X_GO)."""
+def _hold(hands: Mapping[Side, Hand], shape: Shape, X_WO: SE3) -> Hold | None:
+    """The hand that has an object between its fingers, and the object in it."""
     for side, hand in hands.items():
         X_GO = hand.X_WG.inverse() @ X_WO
         within = _inside(shape, X_GO).away_m < hand.gripping.held_within_m
         if within and _fits(hand, shape, X_GO):
-            return side, X_GO
+            return Hold(side, X_GO, math.inf)
     return None
+
+
+def _still(hold: Hold, hand: Hand, shape: Shape) -> Hold | None:
+    """The hold with the fingers as they are now; None if they have let go of it.
+
+    Until they rest they are as far apart as it looks wide, then as they were when they came to it.
+    """
+    if hold.rests and abs(hand.opening_m - hold.opening_m) < hand.gripping.gap_m:
+        return hold
+    if not _fits(hand, shape, hold.X_GO):
+        return None
+    rests = abs(hand.opening_m - hold.opening_m) < RESTS_M
+    return hold._replace(opening_m=hand.opening_m, rests=rests)
 
 
 def _fits(hand: Hand, shape: Shape, X_GO: SE3) -> bool:

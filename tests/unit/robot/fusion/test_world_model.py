@@ -173,6 +173,34 @@ def test_a_hand_open_around_the_narrow_side_of_a_box_does_not_hold_it(model):
     assert cup(model).held_by == "right"
 
 
+def test_what_the_fingers_rest_on_stays_held_however_wide_it_looks(model):
+    """Sizes come from eyes: each time one changed by a little it was let go, and taken again."""
+    model.see(seen(0.0, (0.0, 0.2, 1.5)), X_WC, depth())
+    for opening_m in (0.082, 0.070, 0.070):
+        model.feel(hand(1.5, opening_m))
+    for width_m in (0.086, 0.054, 0.100, 0.070):
+        wide = Shape(kind="cylinder", size_m=(width_m, width_m, 0.1))
+        model.measure((msgspec.structs.replace(CUP, shape=wide),))
+        model.feel(hand(1.3, 0.0705))
+        assert cup(model).held_by == "right"
+    model.feel(hand(1.3, 0.050))
+    assert cup(model).held_by is None, "it has slipped out, and they have closed further"
+
+
+def test_fingers_that_are_still_closing_hold_only_what_is_as_wide(model):
+    model.see(seen(0.0, (0.0, 0.2, 1.5)), X_WC, depth())
+    for opening_m, holds in ((0.082, True), (0.070, True), (0.040, False), (0.0, False)):
+        model.feel(hand(1.5, opening_m))
+        assert (cup(model).held_by == "right") is holds
+
+
+def test_fingers_that_waited_around_a_thing_hold_it_all_the_while_they_close(model):
+    model.see(seen(0.0, (0.0, 0.2, 1.5)), X_WC, depth())
+    for opening_m in (0.083, 0.083, 0.075, 0.066, 0.066):
+        model.feel(hand(1.5, opening_m))
+        assert cup(model).held_by == "right"
+
+
 @pytest.mark.parametrize("opening_m", [0.0, 0.105])
 def test_what_leaves_the_hand_stays_where_it_was(model, opening_m):
     model.see(seen(0.0, (0.0, 0.2, 1.5)), X_WC, depth())
