@@ -69,6 +69,7 @@ CATALOGUE: dict[str, FailureKind] = {
     "path_blocked": FailureKind("something stands in the way", "clear the way"),
     "walk_stalled": FailureKind("walking made no progress", "look for what holds the robot"),
     "grasp_missed": FailureKind("the fingers closed on air", "check where the object is"),
+    "wrong_object": FailureKind("what was taken is another thing", "show it to the camera"),
     "object_dropped": FailureKind("the object left the hand", "check the object"),
     "object_not_seen": FailureKind("the object is not where it was", "show it to the camera"),
     "place_not_seen": FailureKind("a place could not be looked over", "clear the view of it"),

@@ -9,7 +9,12 @@ from executive.skills.context import SkillContext
 from executive.skills.forecast import Forecast, Outlook
 from executive.skills.holding import Held
 from executive.skills.motions.body_access import Body
-from executive.skills.motions.fingers import closed_on_air, open_fingers, set_payload
+from executive.skills.motions.fingers import (
+    check_taken,
+    closed_on_air,
+    open_fingers,
+    set_payload,
+)
 from executive.skills.motions.gaze import look_at
 from executive.skills.motions.reach import move_arm, posture_rad
 from executive.skills.motions.script import GaveUp, Script, give_up
@@ -75,6 +80,7 @@ class Give(ScriptedSkill[GiveParams]):
         body.companion = person.id
         yield from stow_arms(body)
         yield from go_before(body, person)
+        check_taken(body)
         body.phase = f"holding out the {info.name}"
         yield from hold_out(body, held)
         look_at(body, (*body.X_WPerson(person.id).p[:2], FACE_M))

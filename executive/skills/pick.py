@@ -9,7 +9,13 @@ from executive.skills.context import SkillContext
 from executive.skills.forecast import Forecast, Outlook
 from executive.skills.holding import Held
 from executive.skills.motions.approach import approach, come_nearer, withdraw
-from executive.skills.motions.fingers import check_grips, close_fingers, open_fingers, set_payload
+from executive.skills.motions.fingers import (
+    check_grips,
+    check_taken,
+    close_fingers,
+    open_fingers,
+    set_payload,
+)
 from executive.skills.motions.fitting_grasp import ask_fitting
 from executive.skills.motions.gaze import see
 from executive.skills.motions.grasp import (
@@ -139,6 +145,7 @@ class Pick(ScriptedSkill[PickParams]):
         body.progress = 0.85
         yield from withdraw(body, plan, plan.carry_rad, what=info.name)
         check_grips(body)
+        check_taken(body)
 
     def halt(self) -> Script[None]:
         """Fingers that were closing open again: what is between them is not held for certain."""
@@ -151,6 +158,7 @@ class Pick(ScriptedSkill[PickParams]):
         """Whether the object is in a hand already; gives up if the hand wanted is not free."""
         holdings = self.body.context.holdings
         if holdings.find(info.id) is not None:
+            check_taken(self.body)
             return True
         free = holdings.free_sides()
         wanted = self.parameters.side
@@ -328,6 +336,7 @@ class Pick(ScriptedSkill[PickParams]):
         )
         yield from body.wait(0.4)
         check_grips(body)
+        check_taken(body)
         load_n = body.hand(side).load_n - self._tare_n
         if load_n < LEAST_LOAD * GRAVITY_M_S2 * info.mass_kg:
             raise give_up(

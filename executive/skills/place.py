@@ -356,6 +356,9 @@ class PutDown(ScriptedSkill[PlaceParams]):
             if end.failure.code != "object_not_seen":
                 raise
             cause = f"the {info.name} cannot be seen on the {place.name}"
+            track = self.body.track(info.id)
+            if track is not None and track.unlike:
+                cause = f"what was put on the {place.name} for {info.full_name} is {track.unlike}"
             raise give_up("place_missed", cause, object=info.id) from end
         off_m = math.dist(X_WO.p, X_WO_put.p)
         tilt_rad = tilt(X_WO)

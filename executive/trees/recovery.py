@@ -84,6 +84,7 @@ RULES: dict[str, Rule] = {
     "path_blocked": _first(wait=3, step_back=1, ask=1),
     "walk_stalled": _first(retry=1, step_back=1, ask=1),
     "grasp_missed": _first(look_again=2, step_back=1, ask=1),
+    "wrong_object": _first(look_again=2, ask=1),
     "object_dropped": _first(fetch_again=2, ask=1),
     "object_not_seen": _first(look_again=1, ask=1),
     "place_not_seen": _first(wait=1, ask=1),

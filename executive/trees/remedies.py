@@ -103,6 +103,7 @@ HELP: dict[str, str] = {
     "no_grasp": _SHOW,
     "out_of_reach": _SHOW,
     "grasp_missed": _SHOW,
+    "wrong_object": _SHOW,
     "object_dropped": _SHOW,
     "object_not_seen": _SHOW,
     "place_not_seen": "please clear the way to {it} and the view of it",

@@ -134,12 +134,16 @@ class WorldModel:
             if self._tracks[name].X_WO is not None and name not in self._holds:
                 self._miss(self._tracks, name)
 
-    def mistake(self, names: Collection[str]) -> None:
-        """Take it that objects were never where they were seen: something else is there."""
-        for name in names:
-            if name not in self._holds:
-                self._tracks[name] = Track(id=name, X_WO=None, seen_s=-math.inf)
-                self._misses.pop(name, None)
+    def mistake(self, names: Mapping[str, str]) -> None:
+        """Take it that objects were never where they were seen, or what a hand has.
+
+        Args:
+            names: of them, with what is there instead, in words.
+        """
+        for name, what in names.items():
+            self._tracks[name] = Track(id=name, X_WO=None, seen_s=-math.inf, unlike=what)
+            self._misses.pop(name, None)
+            self._holds.pop(name, None)
 
     def _miss_objects(self, view: View, seen: Collection[str]) -> None:
         for name, track in self._tracks.items():

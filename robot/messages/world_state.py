@@ -141,7 +141,8 @@ class Track(msgspec.Struct, frozen=True, kw_only=True):
     """Where an object is believed to be.
 
     `seen_s` is when it was last seen (-inf: never, then X_WO is None); `missing` is set when its
-    place was in clear view and it was not there; `held_by` while a hand has it.
+    place was in clear view and it was not there; `held_by` while a hand has it. `unlike` says what
+    something is that was taken for it ("white", "the rice box"), until it is seen elsewhere.
     """
 
     id: str
@@ -149,6 +150,7 @@ class Track(msgspec.Struct, frozen=True, kw_only=True):
     seen_s: float
     missing: bool = False
     held_by: Side | None = None
+    unlike: str = ""
 
 
 class WorldState(Message, frozen=True, kw_only=True):

@@ -29,6 +29,7 @@ class Thing:
     mass_kg: float = 0.2
     seen_s: float = -math.inf
     known: bool = True
+    unlike: str = ""
 
 
 @dataclass
@@ -124,7 +125,7 @@ class Puppet:
 
     def world(self) -> m.WorldState:
         tracks = tuple(
-            m.Track(id=t.id, X_WO=t.X_WO if t.known else None, seen_s=t.seen_s)
+            m.Track(id=t.id, X_WO=t.X_WO if t.known else None, seen_s=t.seen_s, unlike=t.unlike)
             for t in self.things.values()
         )
         return m.WorldState(

@@ -59,6 +59,19 @@ def check_grips(body: Body) -> None:
             )
 
 
+def check_taken(body: Body) -> None:
+    """Give up when the eyes say by now that what a hand took is another thing than was wanted."""
+    for held in body.context.holdings.all():
+        track, name = body.track(held.object_id), body.object_info(held.object_id).full_name
+        if track is not None and track.unlike:
+            raise give_up(
+                "wrong_object",
+                f"what the {held.side} hand took for {name} is {track.unlike}",
+                object=held.object_id,
+                is_=track.unlike,
+            )
+
+
 def _settle(body: Body, side: Side) -> Script[None]:
     """Wait until the fingers have rested for a moment."""
     gripping = body.description.handy.gripping

@@ -36,6 +36,8 @@ FITS, PER_OCTAVE, LEAST_SIZE = 0.5, 4.0, -4.0
 """A size that such things have; what each factor of two beyond that takes away, and at most."""
 MARGIN_M = 0.015
 """Errors of a size."""
+HARDLY = 0.1
+"""So little of what was seen of a thing had the colour that was told, or one that is taken for it."""
 
 
 def likeness(track: Seen, info: ObjectInfo, plural: str, classes: Classes, sure: Sure) -> float:
@@ -93,6 +95,20 @@ def _colour(track: Seen, told: str) -> float:
     share = track.colour_share(word)
     share += ALIKE_COUNTS * sum(track.colour_share(other) for other in ALIKE[word])
     return math.log((min(share, 1.0) + OTHER_COLOUR) / ANY_COLOUR)
+
+
+def other_colour(track: Seen, told: str) -> str:
+    """The colour that a thing plainly has in place of the one that was told; "" if it may be that.
+
+    Args:
+        track: what is seen.
+        told: the colour that it should have; none, or one that eyes have no idea of, fits all.
+    """
+    word = SAME_AS.get(told, told)
+    if word not in ALIKE or track.colour_looks < LOOKS_TO_BE_SURE:
+        return ""
+    fits = sum(track.colour_share(one) for one in (word, *ALIKE[word]))
+    return track.colours[0] if fits < HARDLY else ""
 
 
 def _size(track: Seen, category: str) -> float:

@@ -2,7 +2,8 @@
 
 Every told thing is one seen thing at most, and the other way round; what fits none stays what it
 is, an unknown green thing. Where two seen things fit one told thing about as well, it is neither.
-A name stays with the thing that has it, wherever that goes, until it is gone or fits no more.
+A name stays with the thing that has it, wherever that goes, until it is gone or fits no more. What
+plainly has another colour than was told is not that thing, whatever else speaks for it.
 """
 
 # pyright: basic
@@ -16,7 +17,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from robot.messages import ObjectInfo
-from robot.perception.sight.likeness import likeness
+from robot.perception.sight.likeness import likeness, other_colour
 from robot.perception.sight.tracking import Seen
 from robot.perception.things.naming import Classes, Sure
 
@@ -35,7 +36,8 @@ class Recogniser:
     """The names that were given, by track.
 
     Attributes:
-        mistaken: names that have lost their thing to another name when names were given last.
+        mistaken: names that have lost their thing when names were given last, as it has another
+            name now, or another colour; with what it is, in a word or two.
     """
 
     def __init__(self, classes: Classes, sure: Sure) -> None:
@@ -49,7 +51,7 @@ class Recogniser:
         self._told: tuple[ObjectInfo, ...] = ()
         self._plurals: Mapping[str, str] = {}
         self._number: dict[str, int] = {}
-        self.mistaken: frozenset[str] = frozenset()
+        self.mistaken: dict[str, str] = {}
 
     def tell(self, told: tuple[ObjectInfo, ...], plurals: Mapping[str, str]) -> None:
         """What things there are: by name, category and colour."""
@@ -63,7 +65,7 @@ class Recogniser:
         """Give names to tracks, or leave them; every named one by its id."""
         there = {track.number for track in tracks}
         self._number = {id: number for id, number in self._number.items() if number in there}
-        self.mistaken = frozenset()
+        self.mistaken = {}
         if not tracks or not self._told:
             return {}
         fits = np.array(
@@ -81,11 +83,21 @@ class Recogniser:
             if column is not None and self._is_sure(fits, stays, chosen, row):
                 found[info.id] = tracks[column]
         before, self._number = self._number, {id: track.number for id, track in found.items()}
-        owners = {number: id for id, number in self._number.items()}
-        self.mistaken = frozenset(
-            id for id, number in before.items() if owners.get(number, id) != id
-        )
+        self.mistaken = self._mistaken(before, {track.number: track for track in tracks})
         return found
+
+    def _mistaken(self, before: Mapping[str, int], tracks: Mapping[int, Seen]) -> dict[str, str]:
+        """What names had taken for their thing, and is another one, with what that is."""
+        owners = {number: id for id, number in self._number.items()}
+        told = {info.id: info for info in self._told}
+        found: dict[str, str] = {}
+        for id, number in before.items():
+            other = owners.get(number, id)
+            if other != id:
+                found[id] = f"the {told[other].full_name}"
+            elif id not in self._number:
+                found[id] = other_colour(tracks[number], told[id].color)
+        return {id: what for id, what in found.items() if what}
 
     def _is_sure(
         self, fits: np.ndarray, stays: np.ndarray, chosen: Mapping[int, int], row: int
@@ -100,6 +112,8 @@ class Recogniser:
 
     def _fit(self, info: ObjectInfo, track: Seen) -> float:
         plural = self._plurals.get(info.category, f"{info.category}s")
+        if other_colour(track, info.color):
+            return NO_WAY
         fit = likeness(track, info, plural, self._classes, self._sure)
         is_first = track.looks < 2 and self._number.get(info.id) != track.number
         return fit - (ENOUGH_AT_ONCE - ENOUGH) if is_first else fit

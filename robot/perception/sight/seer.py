@@ -26,6 +26,8 @@ SAME_SHARE, SAME_M = 0.6, 0.02
 nearer than two things can be."""
 AT_HAND_M = 0.13
 """What is so near to a hand that holds something is that."""
+IN_HAND_M = 0.07
+"""What is so near to where a held thing should be is that."""
 RESIZED_M = 0.003
 """A size that has changed by less is not told again."""
 LIES_BELOW, LIES_RATIO = 0.35, 0.8
@@ -38,14 +40,14 @@ class Look(NamedTuple):
     Attributes:
         sightings: the named things in it.
         missed: named things whose place is in plain view and empty.
-        mistaken: what something was taken for that turns out to be another thing; where that really
-            is, nobody has seen.
+        mistaken: what something was taken for that turns out to be another thing, also in a hand,
+            with what that is; where the real one is, nobody has seen.
         things: everything that was measured in it, with the name it was given or "".
     """
 
     sightings: Sightings
     missed: frozenset[str]
-    mistaken: frozenset[str]
+    mistaken: dict[str, str]
     things: tuple[tuple[Seen, str], ...]
 
 
@@ -100,16 +102,22 @@ class Seer:
         view = sight(image, X_WC)
         nothing = Sightings(stamp_s=image.stamp_s, objects=(), source="sensor")
         if view is None:
-            return Look(nothing, frozenset(), frozenset(), ())
+            return Look(nothing, frozenset(), {}, ())
         self._carry(held)
-        found = [one for one in self._found(image, view, own) if not _is_at(one.p_W, hands_W)]
+        looked = [
+            thing for thing in self._eyes.look(image, view.X_WC, but=own) if thing.range_m < FAR_M
+        ]
+        self._look_at_hands(looked, held)
+        found = [one for one in self._found(looked, view, own) if not _is_at(one.p_W, hands_W)]
         seen = self._tracks.add(found, image.stamp_s)
         before = {track.number: id for id, track in self._named.items()}
         gone = self._tracks.miss(_without(view, own), seen, image.stamp_s)
         self._named = self._recogniser.named(self._tracks.things)
         names = {track.number: id for id, track in self._named.items()}
         sighted = {names[track.number] for track in seen if track.number in names}
-        mistaken = self._recogniser.mistaken - sighted - set(held)
+        mistaken = {
+            name: what for name, what in self._recogniser.mistaken.items() if name not in sighted
+        }
         self._infos |= {name: self._told[name] for name in mistaken}
         self._measure(seen, names)
         X_CW = X_WC.inverse()
@@ -132,11 +140,18 @@ class Seer:
             if track is not None:
                 track.p_W, track.misses = np.array(X_WO.p), 0
 
-    def _found(self, image: RgbdImage, view: Sight, own: NDArray[np.bool_]) -> list[Measured]:
+    def _look_at_hands(self, looked: Sequence[SeenThing], held: Mapping[str, SE3]) -> None:
+        """What is in a hand stands nowhere, and fingers hide its form: its colours are seen."""
+        for name, X_WO in held.items():
+            track, at_W = self._named.get(name), np.array(X_WO.p)
+            near = [one for one in looked if np.linalg.norm(one.p_W - at_W) < IN_HAND_M]
+            if track is not None and near:
+                track.add_colours(max(near, key=lambda one: int(one.pixels.sum())))
+
+    def _found(
+        self, looked: Sequence[SeenThing], view: Sight, own: NDArray[np.bool_]
+    ) -> list[Measured]:
         """What stands somewhere in a picture; parts of one thing are put together."""
-        looked = [
-            thing for thing in self._eyes.look(image, view.X_WC, but=own) if thing.range_m < FAR_M
-        ]
         found = [one for thing in looked if (one := self._measured(view, thing, own)) is not None]
         whole: list[Measured] = []
         for one in sorted(found, key=lambda one: -int(one.seen.pixels.sum())):

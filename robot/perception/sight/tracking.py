@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from robot.perception.sight.measuring import Measured
+from robot.perception.things.eyes import SeenThing
 from robot.perception.things.inputs import Sight
 from robot.perception.things.votes import NEAR_M, NEAR_SIGMAS, SHARED
 from robot.se3 import Array
@@ -45,6 +46,7 @@ class Seen:
         size_m, size_sigma_m: its sides, its height, and its width across the line of sight.
         seen_s: when it was seen last.
         looks: how often.
+        colour_looks: how often its colours were, in a hand too.
     """
 
     number: int
@@ -56,9 +58,11 @@ class Seen:
     seen_s: float
     looks: int = 0
     misses: int = 0
+    colour_looks: int = 0
     _logs: Array = field(default_factory=lambda: np.zeros(0))
     _weight: float = 0.0
     _count: float = 0.0
+    _coloured: float = 0.0
     _colours: dict[str, float] = field(default_factory=dict[str, float])
 
     def add(self, found: Measured, now_s: float) -> None:
@@ -84,12 +88,21 @@ class Seen:
 
     def _vote(self, found: Measured) -> None:
         seen = found.seen
-        weight = min(1.0, float(seen.pixels.sum()) / SURE_PX) * (1.0 if found.is_whole else 0.3)
+        weight = _weight(seen) * (1.0 if found.is_whole else 0.3)
         logs = np.log(np.maximum(seen.chances, 1e-4))
         self._logs = weight * logs if not self.looks else FADE * self._logs + weight * logs
         self._weight = FADE * self._weight + weight
         self._count = FADE * self._count + 1.0
+        self._vote_colours(seen, weight)
+
+    def add_colours(self, seen: SeenThing) -> None:
+        """One more look that tells of its colours alone: fingers are around it."""
+        self._vote_colours(seen, _weight(seen))
+
+    def _vote_colours(self, seen: SeenThing, weight: float) -> None:
         self._colours = {word: FADE * counted for word, counted in self._colours.items()}
+        self.colour_looks += 1
+        self._coloured = FADE * self._coloured + weight
         for word, counts in zip(seen.colours, (1.0, 0.6), strict=False):
             self._colours[word] = self._colours.get(word, 0.0) + weight * counts
 
@@ -103,7 +116,7 @@ class Seen:
 
     def colour_share(self, word: str) -> float:
         """How much of what was seen of it has a colour, 0 to 1."""
-        return self._colours.get(word, 0.0) / max(self._weight, 1e-9)
+        return self._colours.get(word, 0.0) / max(self._coloured, 1e-9)
 
     @property
     def colours(self) -> tuple[str, ...]:
@@ -159,6 +172,11 @@ class Tracks:
             if track.misses < MISSES and (track.looks > 1 or now_s - track.seen_s < FORGET_ONCE_S)
         ]
         return missed
+
+
+def _weight(seen: SeenThing) -> float:
+    """How much a look counts for what a thing is."""
+    return min(1.0, float(seen.pixels.sum()) / SURE_PX)
 
 
 def _sizes(one: Measured) -> Array:

@@ -24,7 +24,7 @@ from robot.messages import (
 )
 from robot.planning.requests import ArmRequest, PickRequest
 from robot.se3 import SE3
-from tests.fakes.stage import Stage
+from tests.fakes.stage import TABLE_M, Stage
 
 CUP = PickParams(object_id="cup")
 
@@ -348,6 +348,30 @@ def test_a_drop_on_the_way_back_is_noticed(stage):
         stage.puppet.tick()
     assert report.failure.code == "object_dropped"
     assert stage.context.holdings.all() == ()
+
+
+def turns_out_white(stage) -> None:
+    stage.puppet.things["cup"].unlike = "white"
+    stage.puppet.things["cup"].known = False
+
+
+def test_what_turns_out_to_be_another_thing_is_put_back_and_not_called_done(stage):
+    """A cream box was taken for the orange one, carried there, and reported as done."""
+    stage.run(CUP, until_phase="lifting")
+    turns_out_white(stage)
+    while (report := stage.skill.step(stage.puppet.time_s)).status == "running":
+        stage.puppet.tick()
+    assert report.failure.code == "wrong_object"
+    assert "white" in report.failure.cause
+    assert stage.context.holdings.all() == ()
+    assert stage.puppet.holding == {}
+    assert stage.puppet.things["cup"].X_WO.p[2] == pytest.approx(TABLE_M + 0.05, abs=0.02)
+
+
+def test_another_thing_in_the_hand_is_not_what_was_to_be_picked_up(stage):
+    assert stage.run(CUP).status == "succeeded"
+    turns_out_white(stage)
+    assert stage.run(CUP).failure.code == "wrong_object"
 
 
 def test_full_hands_are_refused_before_anything_moves(stage):

@@ -83,6 +83,14 @@ def test_an_object_that_is_not_held_cannot_be_placed(stage):
     )
 
 
+def test_what_was_put_there_and_is_another_thing_is_a_miss_that_says_so(stage):
+    stage.puppet.things["cup"].unlike = "white"
+    stage.puppet.things["cup"].known = False
+    report = stage.run(ON_COUNTER)
+    assert report.failure.code == "place_missed"
+    assert "is white" in report.failure.cause
+
+
 def test_what_topples_is_a_miss(stage):
     tick = stage.puppet.tick
 

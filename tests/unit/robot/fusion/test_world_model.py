@@ -97,7 +97,7 @@ def test_it_is_found_again(model):
 
 def test_what_was_another_thing_is_nowhere_again(model):
     model.see(seen(0.0, (0.0, 0.0, 1.5)), X_WC, depth())
-    model.mistake({"cup"})
+    model.mistake({"cup": "blue"})
     assert cup(model).X_WO is None
     assert not cup(model).missing
     model.see(seen(1.0, (0.2, 0.0, 1.5)), X_WC, depth())

@@ -122,3 +122,16 @@ def test_a_name_that_nobody_else_has_is_no_mistake():
         tracks.add([measured(HERE, kind="banana", certain=0.99, colours=("green",))], 0.2 * k)
         recogniser.named(tracks.things)
         assert not recogniser.mistaken
+
+
+def test_a_name_is_taken_from_what_plainly_has_another_colour() -> None:
+    recogniser, tracks = Recogniser(CLASSES, SURE), Tracks()
+    recogniser.tell((RED,), {"cup": "cups"})
+    said = []
+    for k in range(40):
+        colour = "red" if k < 2 else "white"  # a glance from afar
+        tracks.add([measured(HERE, kind="mug", certain=0.95, colours=(colour,))], 0.2 * k)
+        said.append((set(recogniser.named(tracks.things)), dict(recogniser.mistaken)))
+    assert said[1] == ({"red_cup"}, {})
+    assert [mistaken for _, mistaken in said if mistaken] == [{"red_cup": "white"}]
+    assert said[-1] == (set(), {})
