@@ -50,12 +50,16 @@ def made(name: str, variant: int = 0, color: str = "") -> Thing:
     Raises:
         ConfigError: there is no such kind, with the nearest name.
     """
-    kind = catalogue.kind(name)
+    return make(catalogue.kind(name), name, variant, color=color)
+
+
+def make(kind: Kind, name: str, variant: int, *, color: str = "") -> Thing:
+    """A thing of a kind that need not be in the catalogue; `made` says what the rest is."""
     rng = np.random.default_rng(np.random.SeedSequence([zlib.crc32(name.encode()), variant]))
     across, up, share = (float(v) for v in rng.uniform(-1.0, 1.0, 3)) if variant else (0.0,) * 3
     color = color or kind.colors[variant % len(kind.colors)]
-    form = _sized(kind.of, 1.0 + kind.vary.across * across, 1.0 + kind.vary.up * up)
-    word = catalogue.category(name)
+    form = sized(kind.of, 1.0 + kind.vary.across * across, 1.0 + kind.vary.up * up)
+    word = kind.category or name.replace("_", " ")
     drawn = None if kind.print is None else picture(kind.print, color, word, rng)
     plain = _made(form, color, drawn, kind.print)
     matter = _weighed(plain, kind, 0.5 + 0.5 * share)
@@ -120,7 +124,7 @@ def _lowered(matter: Matter, by_m: float) -> Matter:
     return Matter(matter.mass_kg, first, second)
 
 
-def _sized(form: AnyForm, across: float, up: float) -> AnyForm:
+def sized(form: AnyForm, across: float, up: float) -> AnyForm:
     """A form, wider and higher by such factors; walls stay as thick."""
     replace = msgspec.structs.replace
     if isinstance(form, Vessel | Closed | Fruit):

@@ -38,6 +38,9 @@ WALKS_FROM = 50_000
 """The seed of the first walk: none of these scenes is in the other pictures."""
 MOST_WRONG = 0.005
 """Of the things that thresholds are chosen on, so many may get a wrong name."""
+SURE_VOTED = 0.999
+"""Probability from which a kind is believed that several looks agree on: single ones may be wrong
+in the same way, about a kind that was never learnt."""
 
 
 class Sets(NamedTuple):
@@ -176,7 +179,8 @@ def _write_namer(path: Path, learnt: Learnt) -> None:
     families = [family(one) if one not in (naming.UNKNOWN, naming.NOTHING) else one
                 for one in naming.CLASSES]  # fmt: skip
     notes = {"classes": ",".join(naming.CLASSES), "families": ",".join(families),
-             "sure_kind": "0.9", "sure_family": "0.9", "heat": "1", "spread": "1"}  # fmt: skip
+             "sure_kind": "0.9", "sure_family": "0.9", "heat": "1", "spread": "1",
+             "sure_voted_kind": str(SURE_VOTED)}  # fmt: skip
     shapes = {graphs.IMAGE: (SIDE_PX, SIDE_PX, CHANNELS), graphs.NUMBERS: (NUMBERS,)}
     export.write(path, naming.GRAPH, learnt, shapes, notes)
 

@@ -221,7 +221,7 @@ def mahalanobis(some: list[Look]) -> list[float]:
 
 def walked(eyes: Eyes, walks: Iterable[list[Frame]]) -> str:
     """Names and places of things looked at on the way to them, by votes."""
-    classes, sure = eyes.namer.classes, eyes.namer.sure
+    classes, sure = eyes.namer.classes, eyes.namer.voted
     right = wrong = kin = total = strange = strange_named = found = 0
     off: list[float] = []
     for frames in walks:

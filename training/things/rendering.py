@@ -8,7 +8,7 @@ from pathlib import Path
 
 from training.things import homes
 from training.things.frames import Frame, load, save
-from training.things.scenes import Scene
+from training.things.scenes import ODD, USUAL, Scene
 from training.things.splits import Split
 from training.things.working import each
 
@@ -17,13 +17,34 @@ PICTURES = 4
 WALKS, STEPS = "walks", 8
 """Folders of pictures on the way to a thing begin so; pictures of a walk, and of a home."""
 HOMES = "homes"
+OF_NO_KIND = "odd"
+"""Folders of scenes with many invented kinds end so."""
 
 
 def render(
-    folder: Path, split: Split, first: int, count: int, *, jobs: int = 1, walks: bool = False
+    folder: Path,
+    split: Split,
+    first: int,
+    count: int,
+    *,
+    jobs: int = 1,
+    walks: bool = False,
+    odd: bool = False,
 ) -> list[Path]:
-    """Render scenes that are not there yet, or walks through them; all of their files."""
-    return _rendered(folder / (f"{WALKS}-{split}" if walks else split), split, first, count, jobs)
+    """Render scenes that are not there yet, or walks through them; all of their files.
+
+    Args:
+        folder: of all pictures.
+        split: what is in the scenes.
+        first: seed of the first.
+        count: how many.
+        jobs: processes that render.
+        walks: pictures on the way to a thing instead of any.
+        odd: of scenes in which many things are of invented kinds.
+    """
+    name = f"{WALKS}-{split}" if walks else split
+    into = folder / (f"{name}-{OF_NO_KIND}" if odd else name)
+    return _rendered(into, split, first, count, jobs)
 
 
 def render_homes(folder: Path, first: int, count: int, *, jobs: int = 1) -> list[Path]:
@@ -50,7 +71,7 @@ def _scene(split: Split, path: Path) -> None:
     if path.parent.name == HOMES:
         save(list(homes.looked_at(int(path.stem), pictures=STEPS)), path)
         return
-    scene = Scene(split, int(path.stem))
+    scene = Scene(split, int(path.stem), ODD if path.parent.name.endswith(OF_NO_KIND) else USUAL)
     if path.parent.name.startswith(WALKS):
         save(scene.walk(STEPS), path)
         return

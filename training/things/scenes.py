@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -23,10 +24,11 @@ from sim.camera.scene_view import Pinhole
 from sim.paint import Paint
 from sim.palette import COLORS
 from sim.realities import profile
-from sim.things.making import made
+from sim.things.catalogue import Closed, Packet
+from sim.things.making import made, make
 from sim.things.thing import Thing
 from sim.world_schema import Person
-from training.things import rooms
+from training.things import invented, rooms
 from training.things.frames import Frame, Truth
 from training.things.splits import ROOMS, Split, family, kinds
 from training.things.strangers import stranger
@@ -34,7 +36,6 @@ from training.things.strangers import stranger
 PINHOLE = Pinhole(320, 240, 120.0 / math.tan(math.radians(30.0)))
 """As Juno's camera has it."""
 REALITY = "real"
-KNOWN, UNKNOWN = 11, 3
 SHOWN = (4, 12)
 """Things of a picture, at least and at most."""
 LIES_SHARE = 0.08
@@ -52,6 +53,17 @@ TRIES = 25
 SPLITS: tuple[Split, ...] = ("train", "choose", "judge")
 
 
+class Mix(NamedTuple):
+    """How many things of a scene are of kinds, put together anyhow, and of invented kinds."""
+
+    known: int = 11
+    strangers: int = 3
+    invented: int = 0
+
+
+USUAL, ODD = Mix(), Mix(known=7, strangers=1, invented=6)
+
+
 @dataclass
 class Item:
     """A thing of a scene."""
@@ -67,7 +79,7 @@ class Item:
 class Scene:
     """A room with things, as a seed makes it."""
 
-    def __init__(self, split: Split, seed: int) -> None:
+    def __init__(self, split: Split, seed: int, mix: Mix = USUAL) -> None:
         """Make and compile it."""
         self._rng = rng = np.random.default_rng([SPLITS.index(split), seed])
         self._seed = seed
@@ -75,9 +87,11 @@ class Scene:
         paint = Paint(spec)
         self._places = rooms.furnish(spec, paint, ROOMS[split], rng)
         self._items = [
-            *(self._known(spec, paint, number, split) for number in range(KNOWN)),
-            *(self._unknown(spec, paint, number) for number in range(UNKNOWN)),
-        ]
+            *(self._known(spec, paint, number, split) for number in range(mix.known)),
+            *(self._stranger(spec, paint, mix.known + number) for number in range(mix.strangers)),
+            *(self._invented(spec, paint, mix.known + mix.strangers + number, split)
+              for number in range(mix.invented)),
+        ]  # fmt: skip
         colors = sorted(COLORS)
         somebody = Person(id=PERSON, at_m=(0.0, 0.0), height_m=float(rng.uniform(1.5, 1.95)),
                           color=colors[int(rng.integers(len(colors)))])  # fmt: skip
@@ -146,8 +160,18 @@ class Scene:
         return Item(name, thing.color, thing.size_m, thing.radius_m,
                     can_lie=family(name) in LYING)  # fmt: skip
 
-    def _unknown(self, spec: mujoco.MjSpec, paint: Paint, number: int) -> Item:
-        name = f"thing/{KNOWN + number}"
+    def _invented(self, spec: mujoco.MjSpec, paint: Paint, number: int, split: Split) -> Item:
+        rng = self._rng
+        kind = invented.invented(int(rng.integers(*invented.NUMBERS[split])))
+        thing = make(kind, invented.name(kind), int(rng.integers(1, 1000)))
+        body = spec.worldbody.add_body(name=f"thing/{number}", mocap=True)
+        # Two of them have the same name where they are of one form: each has its own here.
+        thing_bodies.shape(body, spec, thing._replace(name=f"{number}/{thing.name}"), paint)
+        return Item(invented.name(kind), thing.color, thing.size_m, thing.radius_m,
+                    can_lie=isinstance(kind.of, Closed | Packet))  # fmt: skip
+
+    def _stranger(self, spec: mujoco.MjSpec, paint: Paint, number: int) -> Item:
+        name = f"thing/{number}"
         body = spec.worldbody.add_body(name=name, mocap=True)
         size_m, radius_m = stranger(body, spec, name, paint, self._rng)
         return Item("", "", size_m, radius_m)

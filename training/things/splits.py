@@ -52,5 +52,5 @@ def kinds(split: Split) -> tuple[str, ...]:
 
 
 def family(kind: str) -> str:
-    """Which family a kind is of."""
-    return next(name for name, members in catalogue.families().items() if kind in members)
+    """Which family a kind is of; empty: of none, as it is not in the catalogue."""
+    return next((name for name, members in catalogue.families().items() if kind in members), "")

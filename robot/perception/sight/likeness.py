@@ -37,7 +37,7 @@ FITS, PER_OCTAVE, LEAST_SIZE = 0.5, 4.0, -4.0
 MARGIN_M = 0.015
 """Errors of a size."""
 HARDLY = 0.1
-"""So little of what was seen of a thing had the colour that was told, or one that is taken for it."""
+"""So little of what was seen of a thing had the colour that was told, or one taken for it."""
 
 
 def likeness(track: Seen, info: ObjectInfo, plural: str, classes: Classes, sure: Sure) -> float:

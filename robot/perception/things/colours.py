@@ -19,16 +19,44 @@ HUES = ((14.0, "red"), (38.0, "orange"), (68.0, "yellow"), (165.0, "green"), (20
 WORDS = ("black", "gray", "white", "brown", *dict.fromkeys(word for _, word in HUES))
 SECOND = 0.3
 """A share of the pixels from which on a colour is told besides the first."""
+NORM, BELIEVED = 12, 0.5
+"""Of a picture's colours, and how much of what it says of the light is taken off, as walls have
+colours too: chosen on pictures that nothing is judged on."""
+DIM, CLIPPED = 0.05, 0.98
+"""Pixels whose brightest colour is between these tell of the light."""
+LEAST_LIT = 1000
+
+Gain = NDArray[np.float32]
 
 
-def words(colours: NDArray[np.uint8], pixels: NDArray[np.bool_]) -> tuple[str, ...]:
+def white_balance(colours: NDArray[np.uint8]) -> Gain:
+    """Gains of red, green and blue against the light's own colour, shape (3,).
+
+    Shades of grey: the light has the colour of a norm of all pixels, between their mean and the
+    brightest [Finlayson, Trezzi 2004]; and only half of it is believed.
+    """
+    rgb = colours.reshape(-1, 3).astype(np.float32) / np.float32(255.0)
+    high = rgb.max(axis=1)
+    lit = rgb[(high > DIM) & (high < CLIPPED)]
+    if len(lit) < LEAST_LIT:
+        return np.ones(3, dtype=np.float32)
+    light = np.maximum((lit**NORM).mean(axis=0) ** (1.0 / NORM), 1e-3)
+    return np.asarray((light.mean() / light) ** BELIEVED, np.float32)
+
+
+def words(
+    colours: NDArray[np.uint8], pixels: NDArray[np.bool_], gain: Gain | None = None
+) -> tuple[str, ...]:
     """One or two words for the colours of a thing, most of it first.
 
     Args:
         colours: of the picture, red, green, blue, shape (height, width, 3).
         pixels: which show the thing, at least one.
+        gain: of red, green and blue, as `white_balance` has it; none: the colours as they are.
     """
     rgb = colours[pixels].astype(np.float32) / np.float32(255.0)
+    if gain is not None:
+        rgb = np.minimum(rgb * gain, np.float32(1.0))
     high, low = rgb.max(axis=1), rgb.min(axis=1)
     saturation = (high - low) / np.maximum(high, 1e-3)
     found = np.array(WORDS.index("gray")) * np.ones(len(rgb), dtype=np.intp)

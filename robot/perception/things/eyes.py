@@ -107,16 +107,17 @@ class Eyes:
         for row, (_, cut) in enumerate(found):
             planes[row], numbers[row] = cut.planes, cut.numbers
         said = self.namer(planes, numbers)
+        gain = colours.white_balance(seen.colours)
         told = (
-            self._told(seen, one, cut, row, sure or self.namer.sure)
+            self._told(seen, (one, cut), row, gain, sure or self.namer.sure)
             for (one, cut), row in zip(found, said, strict=True)
         )
         return [one for one in told if one is not None]
 
     def _told(
-        self, seen: Sight, one: Instance, cut: Crop, row: Floats, sure: Sure
+        self, seen: Sight, found: tuple[Instance, Crop], row: Floats, gain: Floats, sure: Sure
     ) -> SeenThing | None:
-        namer = self.namer
+        (one, cut), namer = found, self.namer
         count = len(namer.classes.names)
         likely = chances(row[:count], namer.heat)
         if namer.classes.nothing(likely) > LIKELY_NOTHING:
@@ -128,7 +129,7 @@ class Eyes:
         return SeenThing(
             name=namer.classes.name(likely, sure),
             chances=likely,
-            colours=colours.words(seen.colours, one.pixels),
+            colours=colours.words(seen.colours, one.pixels, gain),
             p_W=cut.p_W + cut.R_WS @ (PLACE_M * place),
             covariance_W=cut.R_WS @ np.diag(variance) @ cut.R_WS.T,
             size_m=(float(size[0]), float(size[1]), float(size[2])),

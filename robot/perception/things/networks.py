@@ -41,7 +41,9 @@ class Namer:
 
     Attributes:
         classes: what it tells apart.
-        sure: what it was found to be right about.
+        sure: what it was found to be right about, in one look.
+        voted: the same over several looks (`votes`), which make it surer of itself, also where it
+            is wrong: of a kind that it never learnt.
         heat: by how much it is too sure of itself.
         spread: by how much its errors of places are larger than it says.
     """
@@ -53,6 +55,8 @@ class Namer:
         names, families = (tuple(notes[one].split(",")) for one in ("classes", "families"))
         self.classes = Classes(names, families)
         self.sure = Sure(float(notes["sure_kind"]), float(notes["sure_family"]))
+        voted_kind = float(notes.get("sure_voted_kind", notes["sure_kind"]))
+        self.voted = self.sure._replace(kind=voted_kind)
         self.heat, self.spread = float(notes["heat"]), float(notes["spread"])
 
     def __call__(self, planes: Floats, numbers: Floats) -> Floats:

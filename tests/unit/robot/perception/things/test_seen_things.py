@@ -140,6 +140,22 @@ def test_a_label_is_a_second_colour():
     assert colours.words(pixels, np.ones((10, 10), np.bool_)) == ("red", "white")
 
 
+def test_a_white_thing_in_warm_light_is_white_and_a_red_one_stays_red():
+    room = np.random.default_rng(1).uniform(0.35, 0.95, (60, 80, 1)) * np.ones(3)
+    room[20:40, 20:40], room[20:40, 50:70] = 0.85, (0.80, 0.13, 0.11)
+    white, red = np.zeros((2, 60, 80), dtype=np.bool_)
+    white[20:40, 20:40], red[20:40, 50:70] = True, True
+    warm = (255.0 * np.clip(room * (1.10, 0.98, 0.78), 0.0, 1.0)).astype(np.uint8)
+    assert colours.words(warm, white) != ("white",), "by its pixels alone"
+    gain = colours.white_balance(warm)
+    assert colours.words(warm, white, gain) == ("white",)
+    assert colours.words(warm, red, gain) == ("red",)
+
+
+def test_a_dark_picture_says_nothing_of_the_light():
+    assert colours.white_balance(np.zeros((60, 80, 3), np.uint8)).tolist() == [1.0, 1.0, 1.0]
+
+
 def test_a_name_is_as_narrow_as_is_certain():
     def name(*shares: float) -> Name:
         return CLASSES.name(np.array(shares), SURE)
