@@ -105,7 +105,8 @@ def _corners(model: mujoco.MjModel, data: mujoco.MjData, geom: int) -> Array:
 
 def _own_corners(model: mujoco.MjModel, geom: int) -> Array:
     """The same in the frame of its link."""
-    rotation = quat_to_matrix(tuple(model.geom_quat[geom].tolist()))
+    w, x, y, z = model.geom_quat[geom].tolist()
+    rotation = quat_to_matrix((w, x, y, z))
     return _points(model, geom) @ rotation.T + model.geom_pos[geom]
 
 
