@@ -78,8 +78,12 @@ class BodyModel:
             side: self.site_id(hand.grasp_site) for side, hand in description.hands.items()
         }
         self._check_postures()
-        self._arm_ends = {side: self._arm_end(side) for side in description.arm_sides}
-        self.bare_arms = [side for side in self._arm_ends if side not in description.hands]
+        self._arm_ends: dict[Side, tuple[int, Array]] = {
+            side: self._arm_end(side) for side in description.arm_sides
+        }
+        self.bare_arms: list[Side] = [
+            side for side in self._arm_ends if side not in description.hands
+        ]
         self._waist: list[int] = description.indices("waist")
         self._waist_turns = self.turns("waist")
         self.waist_below = self._is_waist_below()
