@@ -237,7 +237,7 @@ def _least(text: str, names: Sequence[Name], before: Attempt, *, follows: bool) 
 def _is_weighed(text: str, names: Sequence[Name], before: Attempt, *, follows: bool) -> bool:
     """Whether what the grammar read may be asked about, though it is never given up.
 
-    No message is: the network often puts it otherwise; nor a few words that are plainly put.
+    No message is: the network often puts it otherwise; nor a few words or one order, plainly put.
     """
     says = any(isinstance(goal, _SPOKEN) for goal in each(before.goals))
     if (
@@ -248,7 +248,8 @@ def _is_weighed(text: str, names: Sequence[Name], before: Attempt, *, follows: b
     ):
         return False
     said = [name.said for name in names]
-    return not (is_plain(text) and is_plainly_put(_GREETING.sub("", text), said, strange=_STRANGE))
+    short = is_plain(text) or len(before.goals) == 1
+    return not (short and is_plainly_put(_GREETING.sub("", text), said, strange=_STRANGE))
 
 
 def _is_kept(text: str, before: Attempt) -> bool:

@@ -245,7 +245,7 @@ def test_messages_and_few_plain_words_always_are(said: str) -> None:
 
 
 def test_what_speaks_against_a_plain_order_has_to_be_likelier_and_sure_of_its_words() -> None:
-    said = "please bring the thermos from the bench to Ingrid in the library"
+    said = "please bring the thermos from the bench to Ingrid in the library and nod"
     before = first_look(said, OBSERVATORY, Context())
     other = "put the thermos on the bench ; come here ; greet Ingrid at the library"
     taken = looked(said, Says(other), own=0.2, other=0.8)
@@ -254,7 +254,7 @@ def test_what_speaks_against_a_plain_order_has_to_be_likelier_and_sure_of_its_wo
     assert isinstance(looked(said, Says(other), own=0.2, other=0.5).outcome, Question)
     assert looked(said, Says(other), own=0.4, other=0.3).outcome == before.outcome
     assert looked(said, Says(other, CLEAR - 0.01), own=0.2).outcome == before.outcome
-    same = "bring the thermos at the bench to Ingrid at the library"
+    same = "bring the thermos at the bench to Ingrid at the library ; nod"
     assert looked(said, Says(same), own=0.2).outcome == before.outcome
 
 
