@@ -79,6 +79,7 @@ _TAKES_BACK = re.compile(
 )
 """A name ahead of one of these may have been taken back by one behind it."""
 _TITLE = re.compile(r"^(?:mr|mrs|ms|miss|dr|prof|professor|doctor|sir|madam|uncle|auntie)\.? ")
+_WHICH = re.compile(r"\bthe (\w+) one\b")
 _MEANT = re.compile(r"\bI meant? (?:the|a|an|my|your|our|his|her|this|that)\s+\w", re.IGNORECASE)
 """I mean *the cellar*: what takes another's place, be it known or not."""
 _BY_THE_WAY = (Wait, Stop, Cancel, Pause, Report)
@@ -215,6 +216,12 @@ def _loses_limit(case: _Case) -> bool:
     return any(n == 0 or words[n - 1] in _RELATIVE for n in denied)
 
 
+def _loses_which(case: _Case) -> bool:
+    """Whether it is said which one is meant, and does not come back: "the long one"."""
+    said = _WHICH.findall(case.text.lower())  # the last counts: "the blue one, no, the red one"
+    return bool(said) and said[-1] not in {*case.both.plain.split(), *strings(case.goals)}
+
+
 def _loses_any_limit(case: _Case) -> bool:
     """Whether any word that could limit an order does not come back: "for later", "both hands"."""
     plain = set(case.both.plain.lower().split())
@@ -337,6 +344,7 @@ _DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
     (_loses_name, NEVER),
     (_is_contrary, NEVER),
     (_loses_count, NEVER),
+    (_loses_which, NEVER),
     (_counts_nobody_said, NEVER),
     (_loses_time, NEVER),
     (_leaves_out, NEVER),
@@ -352,7 +360,7 @@ _DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
     (_tells_of_itself, QUITE_SURE),
 )
 _WITNESSED = (
-    _is_unsure, _loses_limit, _loses_measure, _passes_on, _points,
+    _is_unsure, _loses_measure, _passes_on, _points,
     _is_idle,
 )  # fmt: skip
 """What is no doubt where the grammar offers the same."""

@@ -51,10 +51,16 @@ def test_what_is_not_trusted_is_asked_about() -> None:
 def test_what_the_grammar_reads_from_every_word_is_given_up_only_if_another_is_far_likelier() -> (
     None
 ):
-    said = "Tell Tilda the miller is late, you know how he is, it has been raining all day"
+    said = "find Tilda and tell me what she is wearing today and go home"
     for odds in (-9.0, 0.0, 9.0):
         assert looked_at(said, trusting(odds)) == read(said).outcome
     assert looked_at(said, trusting(0.0, whole=-9.0)) != read(said).outcome
+
+
+def test_what_somebody_is_to_be_told_is_never_taken_for_talk() -> None:
+    said = "Tell Tilda the miller is late, you know how he is, it has been raining all day"
+    for whole in (-9.0, 0.0):
+        assert looked_at(said, trusting(0.0, whole=whole)) == read(said).outcome
 
 
 def test_what_is_an_order_by_itself_is_never_taken_for_talk() -> None:
