@@ -31,10 +31,11 @@ class SpeedCheck:
         self.moved: Flags = np.zeros(count, np.bool_)
         self._before: Flags = np.zeros(count, np.bool_)
         self._told: Array = np.zeros(count)
+        self._went: Array = np.zeros(count)
         self._said: Array = np.zeros(count)
         self._gone: Array = np.zeros(count)
-        self._torn: Flags = np.zeros(count, np.bool_)
-        self._began: Array | None = None
+        self._known: Flags = np.zeros(count, np.bool_)
+        self._last_q: Array | None = None
         self._began_s = self._last_s = 0.0
 
     @property
@@ -50,25 +51,30 @@ class SpeedCheck:
             stamp_s: when.
             q: where they are.
             qd: how fast they say that they move.
-            misses: periods in a row without a reply. One is bridged; a window with more tells
-                nothing, as nobody knows how fast the joint was meanwhile.
+            misses: periods in a row without a reply. One is bridged; what a joint did in more is
+                left out, as nobody knows how fast it was meanwhile.
         """
-        self._torn = self._torn | (misses > 1)
-        if self._began is None:
-            self._began, self._began_s, self._last_s = q.copy(), stamp_s, stamp_s
+        known = misses <= 1
+        if self._last_q is None:
+            self._last_q, self._began_s, self._last_s, self._known = (
+                q.copy(),
+                stamp_s,
+                stamp_s,
+                known,
+            )
             return
-        self._told += qd * (stamp_s - self._last_s)
-        self._last_s = stamp_s
+        counts = known & self._known
+        self._told += np.where(counts, qd * (stamp_s - self._last_s), 0.0)
+        self._went += np.where(counts, q - self._last_q, 0.0)
+        self._last_q, self._last_s, self._known = q.copy(), stamp_s, known
         if stamp_s - self._began_s < WINDOW_S:
             return
-        gone = q - self._began
-        larger = np.maximum(np.abs(gone), np.abs(self._told))
-        differs = (np.abs(gone - self._told) > SLACK_RAD + SLACK_SHARE * larger) & ~self._torn
+        larger = np.maximum(np.abs(self._went), np.abs(self._told))
+        differs = np.abs(self._went - self._told) > SLACK_RAD + SLACK_SHARE * larger
         self.wrong, self._before = differs & self._before, differs
-        far = (larger > SLACK_RAD) & ~self._torn
+        far = larger > SLACK_RAD
         self.moved = self.moved | far
-        self._gone += np.where(far, np.abs(gone), 0.0)
-        self._said += np.where(far, self._told * np.sign(gone), 0.0)
-        self._began, self._began_s = q.copy(), stamp_s
-        self._told[:] = 0.0
-        self._torn[:] = False
+        self._gone += np.where(far, np.abs(self._went), 0.0)
+        self._said += np.where(far, self._told * np.sign(self._went), 0.0)
+        self._began_s = stamp_s
+        self._told[:] = self._went[:] = 0.0
