@@ -65,7 +65,7 @@ QUITE_SURE = 0.85
 """The same for a sentence whose form is no order's, and what the robot is to tell of itself."""
 WITNESSED = 0.6
 """The same where the grammar offers just what the network says: two that know nothing of one
-another were wrong in one of 75, whatever is lost."""
+another were wrong in one of 75. What says which, in which cases or how many is still not lost."""
 FOUND = 0.5
 """So sure the network itself has to be of its words, or its reading to be one of the `SUREST`."""
 SHORT = 6
