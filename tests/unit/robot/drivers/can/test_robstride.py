@@ -93,8 +93,7 @@ def test_the_state_is_the_lowest_fault_or_the_mode():
     assert robstride.status(state(0xC0)).is_fault
 
 
-def test_what_a_public_client_drops_is_whose_a_frame_is():
-    """Feedback and reports, by whom; parameters, faults and commands are nobody's feedback."""
+def test_feedback_and_reports_say_whose_they_are_and_nothing_else_is_feedback():
     kinds = np.array([2, 0x18, 0x11, 0x15, 1, 0]) << 24 | 0x80_05FD
     assert robstride.senders(kinds).tolist() == [5, 5, NOBODY, NOBODY, NOBODY, NOBODY]
 
