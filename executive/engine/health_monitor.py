@@ -347,7 +347,7 @@ def _alarms(body: BodyState) -> list[Finding]:
     return [
         Finding(
             name=f"motor {alarm.who}",
-            level=Level[alarm.level],
+            level=Level.SIT if alarm.level == "OFF" else Level[alarm.level],
             failure=failure(
                 "motor_fault",
                 f"{alarm.who}: {alarm.cause}",

@@ -47,12 +47,12 @@ class MotorAlarm(msgspec.Struct, frozen=True):
 
     `code` is for programs (`silent`), `who` the joint or the bus; `level` what is done, mild first:
     WARN, DERATE (less torque), HOLD (the last targets are kept), SIT (the robot is lowered, and it
-    stays latched).
+    stays latched), DAMP and OFF (no stiffness, no torque: what the owner of the buses does alone).
     """
 
     code: str
     who: str
-    level: Literal["WARN", "DERATE", "HOLD", "SIT"]
+    level: Literal["WARN", "DERATE", "HOLD", "SIT", "DAMP", "OFF"]
     cause: str
     cure: str
 

@@ -64,7 +64,9 @@ def _motors(body: BodyState | None) -> Row:
     values = {alarm.who: f"{alarm.code}: {alarm.cause}" for alarm in body.alarms}
     if body.temperature_c:
         values["hottest_c"] = f"{max(body.temperature_c):.1f}"
-    worst = max((alarm.level in ("HOLD", "SIT") for alarm in body.alarms), default=None)
+    worst = max(
+        (alarm.level in ("HOLD", "SIT", "DAMP", "OFF") for alarm in body.alarms), default=None
+    )
     level = OK if worst is None else ERROR if worst else WARNING
     return level, "motors", f"{len(body.alarms)} alarms, {body.mode}", values
 

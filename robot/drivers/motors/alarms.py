@@ -13,7 +13,8 @@ class Level(IntEnum):
     """What is done, from nothing to the most.
 
     HOLD: every joint keeps its last target. SIT: whoever commands lowers the robot
-    (`robot.control.lowering`), so that commands pass.
+    (`robot.control.lowering`), so that commands pass. DAMP and OFF no driver takes by itself: the
+    owner of the buses does (`robot.owner.ladder`).
     """
 
     OK = 0
@@ -21,6 +22,8 @@ class Level(IntEnum):
     DERATE = 2
     HOLD = 3
     SIT = 4
+    DAMP = 5
+    OFF = 6
 
 
 DOES: dict[Level, str] = {
@@ -30,14 +33,18 @@ DOES: dict[Level, str] = {
     Level.HOLD: "keeps every joint's last target, whatever is commanded; the task waits",
     Level.SIT: "obeys again, so that the controller squats within 2 to 3 s and stays low; the task "
     "ends",
+    Level.DAMP: "gives no stiffness, every joint brakes; whatever stands goes down",
+    Level.OFF: "gives no torque",
 }
-"""What drivers and who commands them do at each level, for people."""
+"""What is done at each level, for people."""
 
-NAMES: dict[Level, Literal["WARN", "DERATE", "HOLD", "SIT"]] = {
+NAMES: dict[Level, Literal["WARN", "DERATE", "HOLD", "SIT", "DAMP", "OFF"]] = {
     Level.WARN: "WARN",
     Level.DERATE: "DERATE",
     Level.HOLD: "HOLD",
     Level.SIT: "SIT",
+    Level.DAMP: "DAMP",
+    Level.OFF: "OFF",
 }
 
 

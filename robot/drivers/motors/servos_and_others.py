@@ -26,7 +26,7 @@ from robot.messages import MotorAlarm
 from robot.model.description import RobotDescription
 from robot.se3 import Array
 
-LEVELS = ("SIT", "HOLD", "DERATE", "WARN")
+LEVELS = ("OFF", "DAMP", "SIT", "HOLD", "DERATE", "WARN")
 
 
 class Maps(NamedTuple):
@@ -113,6 +113,11 @@ class ServosAndOthers(Closing):
             self.others.close()
         finally:
             self.servos.close()
+
+    def reset(self) -> None:
+        """Forget every alarm of both; their motors are armed anew by the next command."""
+        self.others.reset()
+        self.servos.reset()
 
     def claim(self) -> bool:
         """Become the one that commands all motors; False while another one commands any."""

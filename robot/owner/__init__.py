@@ -1,0 +1,1 @@
+"""What outlives the controller: the process that owns the buses, and what it does alone."""
