@@ -150,12 +150,18 @@ def campaign() -> str:
 
 def motor_ladder() -> str:
     """What is done at each level of a motor's alarm."""
-    return _table(["level", "what the robot does"], safety.ladder())
+    return _table(["level", "what the robot does"], safety.levels())
 
 
 def motor_alarms() -> str:
     """What sounds an alarm of motors."""
     return _table(["motors", "what happened", "code", "level", "within"], safety.alarms())
+
+
+def bus_owner() -> str:
+    """What the owner of the buses does when nobody commands."""
+    head = ["what happened", "code", "level", "ends"]
+    return _table(head, safety.owner())
 
 
 def motor_watchdogs() -> str:
@@ -171,6 +177,7 @@ def controller_reactions() -> str:
 TABLES = {
     "motor ladder": motor_ladder,
     "motor alarms": motor_alarms,
+    "bus owner": bus_owner,
     "motor watchdogs": motor_watchdogs,
     "controller": controller_reactions,
     "exit statuses": exit_statuses,

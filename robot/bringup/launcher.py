@@ -218,6 +218,7 @@ class Launcher:
                 processes=self._processes,
                 simulated=wanted.simulated,
                 pictures=wanted.pictures,
+                owned=wanted.owned,
             )
             try:
                 self._robot.__enter__()

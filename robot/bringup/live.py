@@ -15,6 +15,7 @@ from robot.bringup import private_folder
 from robot.bringup.body_clock import BodyClock
 from robot.bringup.mailbox import RUN_FILE, Handle
 from robot.bringup.private_folder import PrivateFolder
+from robot.bringup.processes import PROCESSES, Process
 from robot.bringup.supervisor import Supervisor
 from robot.bus import topics
 from robot.bus.run import Run
@@ -82,6 +83,9 @@ class LiveRuntime(Closing):
         pictures: bool = False,
         handle: Handle | None = None,
         motors: str = "",
+        owned: bool = False,
+        stop_input: Path | None = None,
+        processes: tuple[Process, ...] = PROCESSES,
         lidar_map: Path | None = None,
     ) -> None:
         """Check everything that can be checked before a process starts.
@@ -96,12 +100,17 @@ class LiveRuntime(Closing):
             pictures: whether what the robot's camera sees is rendered, in a process of its own.
             handle: on the process above, where that one looks after the processes.
             motors: driver of the motors in place of the one that the description names.
+            owned: whether a process of its own commands them, also where the description does not
+                say so.
+            stop_input: a file that emulates the contact of its emergency stop.
+            processes: the table; not looked at with a `handle`.
             lidar_map: the map that it finds itself in, where its lidar tells it where it is.
 
         Raises:
             ConfigError: if the robot or one of its drivers cannot be used.
         """
-        registry.check(description.load(robot).driven_by(motors))
+        body = description.load(robot).driven_by(motors)
+        registry.check(body)
         self.timing: dict[str, LoopTiming] = {}
         self._plan = Run(
             folder=str(folder),
@@ -114,11 +123,13 @@ class LiveRuntime(Closing):
             simulated=simulated,
             pictures=pictures or world.eyes == "camera",
             motors=motors,
+            stop_input="" if stop_input is None else str(stop_input),
+            owned=owned or body.bus_owner is not None,
             eyes=world.eyes,
             localisation=world.localisation,
             lidar_map="" if lidar_map is None else str(lidar_map),
         )
-        self._handle = handle
+        self._handle, self._processes = handle, processes
         self._crew: Crew | None = None
         self._bus: ZenohBus | None = None
         self._private: PrivateFolder | None = None
@@ -161,8 +172,10 @@ class LiveRuntime(Closing):
             private / RUN_FILE,
             logs=logs,
             clock=self._wall,
+            processes=self._processes,
             simulated=self.run.simulated,
             pictures=self.run.pictures,
+            owned=self.run.owned,
         )
         self._crew = supervisor.__enter__()
 

@@ -16,8 +16,8 @@ class Process:
     Attributes:
         name: its name on the bus and of its log.
         module: run as `python -m module FILE PARENT`.
-        when: "always", only where reality is simulated, or only where that is looked at through its
-            robot's camera as well.
+        when: "always", only where reality is simulated, only where that is looked at through its
+            robot's camera as well, or only where a process of its own commands the motors.
         death: failure code that its death means, once it is not restarted any more.
         restarts: how often it may be started again within `RESTART_WINDOW_S`.
         is_vital: whether a run ends when it is not restarted any more.
@@ -30,7 +30,7 @@ class Process:
 
     name: str
     module: str
-    when: Literal["always", "simulation", "pictures"]
+    when: Literal["always", "simulation", "pictures", "owned"]
     death: str
     restarts: int = 0
     is_vital: bool = True
@@ -47,8 +47,10 @@ class Process:
         recent = [start_s for start_s in starts_s[1:] if start_s > now_s - RESTART_WINDOW_S]
         return self.restarts - len(recent)
 
-    def needed(self, *, simulated: bool, pictures: bool = False) -> bool:
-        """Whether it is run, where reality is simulated or not, and looked at or not."""
+    def needed(self, *, simulated: bool, pictures: bool = False, owned: bool = False) -> bool:
+        """Whether it is run, where reality is simulated or not, looked at, buses owned or not."""
+        if self.when == "owned":
+            return owned
         wanted = self.when != "pictures" or pictures
         return self.when == "always" or (simulated and wanted)
 
@@ -63,6 +65,7 @@ robot that nobody holds up meanwhile falls."""
 
 PROCESSES: tuple[Process, ...] = (
     Process("plant", "sim.main", "simulation", death="plant_lost"),
+    Process("owner", "robot.owner.main", "owned", death="motor_fault"),
     CONTROLLER,
     Process("perception", "robot.perception.main", "always", death="localisation_lost", restarts=3),
     Process(
@@ -72,7 +75,7 @@ PROCESSES: tuple[Process, ...] = (
 )  # fmt: skip
 """In the order of starting; they are stopped in the order of `STOP_ORDER`."""
 
-STOP_ORDER = ("controller", "perception", "camera", "plant")
+STOP_ORDER = ("controller", "owner", "perception", "camera", "plant")
 """The controller first, while there is still a plant that takes its last command: damping."""
 
 EXECUTIVE = Process(

@@ -16,6 +16,7 @@ from robot.drivers.motors import motor_map, watching
 from robot.drivers.motors.alarms import DOES, Kind, Level
 from robot.drivers.motors.can import watching as can_watching
 from robot.drivers.motors.dynamixel import watching as servo_watching
+from robot.owner import ladder
 
 Rows: TypeAlias = list[list[str]]
 
@@ -26,8 +27,8 @@ KINDS: dict[str, tuple[Kind, ...]] = {
 }
 
 
-def ladder() -> Rows:
-    """Levels of a driver's alarms: name, what the robot does."""
+def levels() -> Rows:
+    """Levels of alarms: name, what the robot does."""
     return [[level.name, DOES[level]] for level in Level]
 
 
@@ -44,6 +45,25 @@ def alarms() -> Rows:
         ]
         for level, family, kind in sorted(rows, key=lambda row: row[0])
     ]
+
+
+def owner() -> Rows:
+    """What the owner of the buses does alone, the mildest first: when, code, level, how it ends."""
+    return [
+        [row.when, f"`{row.code}`", _level(row), _ends(row)]
+        for row in sorted(ladder.ROWS, key=lambda row: row.level)
+    ]
+
+
+def _level(row: ladder.Row) -> str:
+    return f"{row.level.name}, latched" if row.is_latched else row.level.name
+
+
+def _ends(row: ladder.Row) -> str:
+    """What ends it. No reset is taken while torque is given."""
+    if not row.is_latched:
+        return "by the next command"
+    return "by a person's reset, once it is over" if row.refuses_reset else "by a person's reset"
 
 
 def watchdogs() -> Rows:

@@ -34,6 +34,7 @@ class Supervisor(Closing):
         processes: tuple[Process, ...] = PROCESSES,
         simulated: bool = True,
         pictures: bool = False,
+        owned: bool = False,
     ) -> None:
         """Start nothing yet.
 
@@ -44,6 +45,7 @@ class Supervisor(Closing):
             processes: the table.
             simulated: whether reality is; without, the rows for simulation are left out.
             pictures: whether somebody looks through the robot's camera; without, its row is.
+            owned: whether a process of its own commands the motors; without, its row is.
         """
         self.restarted: list[str] = []
         self._logs = logs
@@ -51,7 +53,7 @@ class Supervisor(Closing):
         self._children = {
             row.name: Child(row, run_file, log=self._log(row.name), clock=clock)
             for row in processes
-            if row.needed(simulated=simulated, pictures=pictures)
+            if row.needed(simulated=simulated, pictures=pictures, owned=owned)
         }
         self._failure: Failure | None = None
 

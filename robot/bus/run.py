@@ -17,9 +17,10 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     sockets and the plant's shared memory. `variation_seed` shuffles the world, None leaves it.
     `reality` is the profile of the simulated one; `simulated` says whether there is one, `pictures`
     whether somebody looks through its camera. `motors` is the driver of the motors in place of the
-    one in the robot's description; in simulation it is emulated. `eyes` is who tells where
-    things are, `localisation` where the robot is; `lidar_map` is the file of the map that it then
-    finds itself in.
+    one in the robot's description; in simulation it is emulated. `owned` says whether a process of
+    its own commands the motors, which outlives the controller; `stop_input` is a file that emulates
+    its emergency stop. `eyes` is who tells where things are, `localisation` where the robot is;
+    `lidar_map` is the file of the map that it then finds itself in.
     """
 
     folder: str
@@ -32,6 +33,8 @@ class Run(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
     simulated: bool = True
     pictures: bool = False
     motors: str = ""
+    owned: bool = False
+    stop_input: str = ""
     eyes: EyesBy = "oracle"
     localisation: LocalisedBy = "oracle"
     lidar_map: str = ""

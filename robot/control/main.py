@@ -83,7 +83,10 @@ def main(run_file: str, parent_pid: str) -> None:
     with ZenohBus("controller", config.sockets) as bus:
         plant = SharedPlant(robot, config.memory, clock=clock)  # opened by a simulated driver
         emulated = config.memory if config.motors and config.simulated else None
-        wiring = Wiring(robot=robot, clock=clock, bus=bus, plant=plant, emulated=emulated)
+        wiring = Wiring(
+            robot=robot, clock=clock, bus=bus, plant=plant, emulated=emulated,
+            owner=config.memory if config.owned else None,
+        )  # fmt: skip
         with BodyDevices(wiring, needs=NEEDS) as body:
             if not is_next(0.0) or not body.claim():
                 ControlLoop(robot).tick(body.read())  # the first tick of a process is a slow one

@@ -10,7 +10,7 @@ from robot.closing import Closing
 from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
 from robot.drivers.motor_bus import Capability, MotorCommand
 from robot.drivers.published_sensors import PublishedSensors
-from robot.drivers.registry import FORCE, IMU, MOTORS
+from robot.drivers.registry import FORCE, IMU, commanded_motors
 from robot.drivers.sensor_source import SensorSource
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
@@ -33,7 +33,7 @@ class BodyDevices(Closing):
             ConfigError: if the description names a driver that there is not.
             DriverError: if a driver cannot be, or the motors cannot do what the controller needs.
         """
-        self._motors = MOTORS.make(wiring)
+        self._motors = commanded_motors(wiring)
         if lacking := needs - self._motors.capabilities:
             raise DriverError(
                 f"the motors of {wiring.robot.name!r} lack what its controller needs: "

@@ -157,6 +157,22 @@ SENSES: tuple[Sense[Any], ...] = (
 FAMILIES: tuple[Family[object], ...] = (MOTORS, IMU, FORCE, RGBD, *SENSES)
 
 
+def commanded_motors(wiring: Wiring) -> MotorBus:
+    """What a controller commands: the motors, or the process that owns their buses, if one does.
+
+    Raises:
+        ConfigError, DriverError: as `Family.make`, also where somebody else opens them.
+    """
+    motors = MOTORS.make(wiring)  # opens nothing
+    if wiring.owner is None:
+        return motors
+    from robot.drivers.motors.owned.driver import OwnedMotors
+
+    return OwnedMotors(
+        wiring.robot, wiring.owner, clock=wiring.clock, capabilities=motors.capabilities
+    )
+
+
 def check(robot: RobotDescription) -> None:
     """Whether every driver that a description names is in the table.
 

@@ -64,6 +64,7 @@ class Wiring:
         bus: of the process; a simulated plant sends over it what is not urgent.
         plant: the simulated plant, where this process may reach one.
         emulated: folder of the sockets by which that plant emulates buses, where it does.
+        owner: folder of the memory of the process that owns the motors' buses, where one does.
     """
 
     robot: RobotDescription
@@ -71,6 +72,7 @@ class Wiring:
     bus: Bus
     plant: SimulatedPlant | None = None
     emulated: Path | None = None
+    owner: Path | None = None
 
     def simulated_plant(self) -> SimulatedPlant:
         """The simulated plant. Raises DriverError if there is none."""

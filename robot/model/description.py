@@ -18,6 +18,7 @@ from robot.messages import Side
 from robot.model.gait import Balance, Walking
 from robot.model.handling import Arms, Handling, Signs
 from robot.model.keyframes import GettingUp
+from robot.model.ownership import BusOwner
 from robot.model.paces import Paces
 from robot.model.published import Published
 
@@ -198,7 +199,7 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     """A humanoid: joint groups, limits, feet, hands, sensors, postures.
 
     `drivers` names what moves and senses it, by device (`robot.drivers.registry`); one that is not
-    named is simulated.
+    named is simulated. With `bus_owner` a process of its own commands the motors (`robot.owner`).
 
     What is left out and 0 here is measured at its model when it is loaded: height of the shoulders
     above the floor, standing, and their distance from the middle; length of a stretched arm, from
@@ -233,6 +234,7 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     battery: Battery | None = None
     getting_up: GettingUp | None = None
     drivers: dict[str, str] = {}
+    bus_owner: BusOwner | None = None
     folder: str = ""
     file: str = ""
     mjcf_folder: str = ""

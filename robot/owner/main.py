@@ -1,0 +1,50 @@
+"""The owner of the buses as a process: it commands the motors, and outlives the controller."""
+
+from __future__ import annotations
+
+import gc
+import sys
+from contextlib import ExitStack
+
+from robot.bus import run
+from robot.bus.bus import LocalBus
+from robot.bus.lifeline import Stop, ask_for_real_time, tie_to_parent
+from robot.clock import WallClock
+from robot.drivers.motors.owned.memory import OwnerMemory
+from robot.drivers.simulation.shared_plant import SharedPlant
+from robot.drivers.wiring import Wiring
+from robot.model import description
+from robot.model.body import BodyModel
+from robot.owner.owner import BusOwner
+from robot.owner.serving import OwnedBody, Serving, squat_of, stop_of
+
+
+def main(run_file: str, parent_pid: str) -> None:
+    """Load, build, run, close."""
+    tie_to_parent(int(parent_pid))
+    config, clock, stop = run.load(run_file), WallClock(), Stop()
+    robot = description.load(config.robot).driven_by(config.motors)
+    body = BodyModel(robot)
+    plant = SharedPlant(robot, config.memory, clock=clock)  # opened by a simulated driver
+    emulated = config.memory if config.motors and config.simulated else None
+    wiring = Wiring(  # it has nothing to say to anybody but by its memory
+        robot=robot, clock=clock, bus=LocalBus(), plant=plant, emulated=emulated
+    )
+    owner = BusOwner(body, squat_of(body, print))
+    with ExitStack() as stack:
+        memory = stack.enter_context(OwnerMemory(robot, config.memory, create=True))
+        is_pressed = stop_of(config, robot, stack)
+        devices = stack.enter_context(OwnedBody(wiring))
+        ask_for_real_time()
+        gc.freeze()  # what start-up made stays: the collector need not look at it every period
+        serving = Serving(
+            owner, devices, memory,
+            clock=clock, tell=print, is_simulated=config.simulated, is_pressed=is_pressed,
+        )  # fmt: skip
+        while not stop:
+            serving.period()
+        serving.close()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,151 @@
+"""What the owner of the buses sends in each period: the controller's command, or its own.
+
+It has no clock of its own: time is that of the motors' states.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robot.drivers.body_sample import BodySample
+from robot.drivers.motor_bus import MotorCommand
+from robot.drivers.motors.alarms import Level
+from robot.drivers.motors.holding import Holding
+from robot.drivers.motors.owned.memory import Order
+from robot.model.body import BodyModel
+from robot.owner import ladder
+from robot.owner.ladder import Refused, Signs, State
+from robot.owner.sit import Sitting, Squat
+from robot.owner.standing import stands
+
+
+class Since:
+    """For how long something has been so [s], 0 where it is not."""
+
+    def __init__(self) -> None:
+        """It is not."""
+        self._from_s: float | None = None
+
+    def look(self, now_s: float, *, is_so: bool) -> float:
+        """Whether it is so now; returns for how long, at least a little where it is."""
+        if not is_so:
+            self._from_s = None
+            return 0.0
+        if self._from_s is None:
+            self._from_s = now_s
+        return max(now_s - self._from_s, 2 * ladder.SLACK_S)
+
+
+class BusOwner:
+    """Decides, period by period.
+
+    Attributes:
+        state: where on the ladder it is.
+        peak: the largest torque measured since it acts alone, as a share of the joint's limit.
+        stale: commands that came after their deadline, and were not carried out.
+    """
+
+    def __init__(self, body: BodyModel, squat: Squat | None) -> None:
+        """Nothing was commanded yet. `squat`: None if the robot knows none, and so damps."""
+        self._body, self._squat = body, squat
+        self.stale = 0
+        self.peak = 0.0
+        self._forget()
+
+    def _forget(self) -> None:
+        self.state, self._signs = ladder.WELL, Signs()
+        self._last: MotorCommand | None = None
+        self._heard_s: float | None = None
+        self._is_sent = self._was_on = False
+        self._sitting: Sitting | None = None
+        self._holding = Holding()
+        self._astray, self._lowering, self._seated = Since(), Since(), Since()
+        self._damping, self._let_go, self._stop = Since(), Since(), Since()
+
+    @property
+    def is_waited_for(self) -> bool:
+        """Whether a command is expected: a controller commands, and nothing is latched."""
+        return self._heard_s is not None and not self.state.latched
+
+    def decide(
+        self, sample: BodySample, order: Order | None, *, is_pressed: bool
+    ) -> MotorCommand | None:
+        """What to send in this period.
+
+        Args:
+            sample: what the body feels.
+            order: a controller's new one, if there is one.
+            is_pressed: whether the stop input is, or cannot be read.
+
+        Returns:
+            None: nothing, as nobody has commanded yet; the motors are not enabled then.
+        """
+        now_s = sample.motors.stamp_s
+        is_fresh = order is not None and not is_pressed and self._take(order, now_s)
+        self._signs = self._look(sample, is_fresh=is_fresh, is_pressed=is_pressed)
+        self.state = ladder.after(self.state, self._signs)
+        if self.state.level > Level.OK:
+            share = np.abs(sample.motors.tau) / self._body.torque_limit_nm
+            self.peak = max(self.peak, float(share.max()))
+        elif not self.state.latched:
+            self.peak = 0.0
+        command = self._sent(sample)
+        if command is not None:
+            self._last, self._is_sent = command, True
+        return command
+
+    def reset(self) -> State | Refused:
+        """Forget all, if that is allowed now; the next controller enables the motors anew."""
+        answer = ladder.reset(self.state, self._signs)
+        if isinstance(answer, State):
+            self._forget()
+        return answer
+
+    def _take(self, order: Order, now_s: float) -> bool:
+        """Whether an order is to be carried out."""
+        if now_s > order.deadline_s + ladder.SLACK_S:
+            self.stale += 1
+            return False
+        if self.state.latched:
+            return False
+        self._last = order.command
+        self._heard_s = None if order.leaves else now_s
+        return True
+
+    def _look(self, sample: BodySample, *, is_fresh: bool, is_pressed: bool) -> Signs:
+        now_s, level = sample.motors.stamp_s, self.state.level
+        silent_s = 0.0 if is_fresh or self._heard_s is None else now_s - self._heard_s
+        self._was_on |= self._is_sent and not sample.motors.watchdog
+        astray = self._squat is None or not stands(sample, self._body, self._squat)
+        lowering = level == Level.SIT
+        seated = lowering and self._sitting is not None and self._sitting.is_over(now_s)
+        lets_go = self._was_on and sample.motors.watchdog
+        return Signs(
+            silent_s=silent_s,
+            astray_s=self._astray.look(now_s, is_so=astray),
+            lowering_s=self._lowering.look(now_s, is_so=lowering),
+            seated_s=self._seated.look(now_s, is_so=seated),
+            damping_s=self._damping.look(now_s, is_so=level == Level.DAMP),
+            let_go_s=self._let_go.look(now_s, is_so=lets_go),
+            stop_s=self._stop.look(now_s, is_so=is_pressed),
+        )
+
+    def _sent(self, sample: BodySample) -> MotorCommand | None:
+        state, last, level = sample.motors, self._last, self.state.level
+        now_s, count = state.stamp_s, self._body.count
+        if last is None:
+            return None  # also where the stop is pressed: the motors were never enabled
+        if level < Level.HOLD:
+            self._holding.forget()
+            return last
+        if level == Level.HOLD:
+            return self._holding.decided(
+                MotorCommand.damping(count, now_s), Level.HOLD, obeyed=last, q=state.q
+            )
+        if level == Level.SIT and self._squat is not None:
+            if self._sitting is None:
+                self._sitting = Sitting(self._body, self._squat, last, state.q, now_s=now_s)
+            return self._sitting.at(now_s)
+        if level == Level.OFF:
+            return MotorCommand.damping(count, now_s, 0.0)
+        return MotorCommand.damping(count, now_s, self._body.kd)
