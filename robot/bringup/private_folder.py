@@ -15,6 +15,7 @@ import os
 import shutil
 import stat
 import tempfile
+from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
@@ -63,6 +64,19 @@ def remove(folder: PrivateFolder) -> None:
     """Take a folder away, once; one that somebody removed already is fine."""
     shutil.rmtree(folder.path, ignore_errors=True)
     os.close(folder.lock)
+
+
+def there() -> list[Path]:
+    """This user's folders, of runs that live or that died; whoever opens one looks at it."""
+    found: list[Path] = []
+    for parent in dict.fromkeys((IN_MEMORY, _temporary(), LAST)):
+        with suppress(OSError), os.scandir(parent) as entries:
+            for entry in itertools.islice(entries, MOST_SWEPT):
+                if not entry.name.startswith(PREFIX) or not entry.is_dir(follow_symlinks=False):
+                    continue
+                if entry.stat(follow_symlinks=False).st_uid == os.geteuid():
+                    found.append(Path(entry.path))
+    return found
 
 
 def sweep(parent: Path) -> None:

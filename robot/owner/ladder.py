@@ -82,6 +82,15 @@ class Row(NamedTuple):
         return level < self.below and all(term.holds(signs) for term in self.terms)
 
 
+DOES: dict[Level, str] = {
+    Level.OK: "carries commands out",
+    Level.HOLD: "keeps every joint's last target",
+    Level.SIT: "lowers the robot by its own squat, and obeys nobody",
+    Level.DAMP: "lets every joint brake; what stands goes down",
+    Level.OFF: "gives no torque",
+}
+"""What the owner does at each level, for people."""
+
 REARM = "look at the robot, then `humanoid motors rearm`"
 SILENT = Term("silent_s", HOLDS_S)
 

@@ -4,7 +4,17 @@ from __future__ import annotations
 
 import typer
 
-from executive.frontends.motors.options import Check, Jog, Log, OfMap, Scan, Watch, Zero
+from executive.frontends.motors.options import (
+    Check,
+    Jog,
+    Log,
+    OfMap,
+    Rearm,
+    Scan,
+    SimulateFailsafe,
+    Watch,
+    Zero,
+)
 from executive.frontends.options import takes
 
 app = typer.Typer(
@@ -155,3 +165,46 @@ def jog(options: Jog) -> None:
     from executive.frontends.motors import commands
 
     raise typer.Exit(commands.jog(options))
+
+
+@app.command("simulate-failsafe")
+@takes(SimulateFailsafe)
+def simulate_failsafe(options: SimulateFailsafe) -> None:
+    """Lose the controller of a simulated robot that stands, and see what the bus owner does.
+
+    A process that outlives the controller holds the joints, sits the robot down or lets it damp,
+    takes the torque off, and lets no controller before it is armed again (docs/safety.md). Every
+    rung is told with its time; resets that come too early are tried, too.
+
+    [bold]Examples[/bold]
+
+      humanoid motors simulate-failsafe
+
+      humanoid motors simulate-failsafe --how press --driver simulated
+
+      humanoid motors simulate-failsafe --how stop --json
+
+    Exit status 1 where a torque was over its limit, or somebody was obeyed too early.
+    """
+    from executive.frontends.motors import failsafe
+
+    raise typer.Exit(failsafe.simulate(options))
+
+
+@app.command()
+@takes(Rearm)
+def rearm(options: Rearm) -> None:
+    """Let a controller command motors again whose owner has taken their torque off.
+
+    Look at the robot first. It is refused while the motors still give torque, and while the
+    emergency stop is pressed. The robot moves only once it is told to.
+
+    [bold]Examples[/bold]
+
+      humanoid motors rearm
+
+    Exit status 1 where it was refused.
+    """
+    from executive.frontends.motors import failsafe
+
+    raise typer.Exit(failsafe.rearm(options))

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from executive.frontends.options import AsJson, Robot
+from executive.frontends.options import AsJson, Driver, InReality, Robot
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,3 +117,34 @@ class Jog(OfMap):
         float,
         typer.Option("--torque", min=0.02, max=1.0, help="Share of its torque limit."),
     ] = 0.2
+
+
+class Loss(StrEnum):
+    """What happens in a trial of the bus owner."""
+
+    KILL = "kill"
+    STOP = "stop"
+    PRESS = "press"
+
+
+@dataclass(frozen=True, kw_only=True)
+class SimulateFailsafe:
+    """A trial of the bus owner."""
+
+    how: Annotated[
+        Loss,
+        typer.Option(
+            "--how", help="Kill the controller, stop it, or press the emergency stop (emulated)."
+        ),
+    ] = Loss.KILL
+    robot: Robot = "juno"
+    driver: Driver = "can"
+    reality: InReality = "ideal"
+    as_json: AsJson = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rearm:
+    """A person's word that motors may be commanded again."""
+
+    as_json: AsJson = False

@@ -1,4 +1,4 @@
-"""The owner of the buses with the simulated body: its controller falls silent, and it acts alone."""
+"""The owner of the buses with the simulated body: nobody commands, and it acts alone."""
 
 import math
 

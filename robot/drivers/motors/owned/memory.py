@@ -157,6 +157,11 @@ class OwnerMemory(Closing):
         record = self._orders.read()
         return 0 if record is None else int(record[1][0])
 
+    def command_stamp_s(self) -> float:
+        """Of the state that the newest order answers; -inf before the first."""
+        record = self._orders.read()
+        return -np.inf if record is None else float(record[1][1])
+
     def order(self, order: Order) -> None:
         """Leave an order."""
         c = order.command

@@ -1,0 +1,225 @@
+"""The owner at work, with motors that are only told of: waits, words, and a person's wish."""
+
+import numpy as np
+import pytest
+
+from robot.clock import SimulatedClock
+from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
+from robot.drivers.motor_bus import MotorCommand, MotorState
+from robot.drivers.motors.alarms import Level
+from robot.drivers.motors.owned.memory import Order, OwnerMemory
+from robot.owner.owner import BusOwner
+from robot.owner.serving import WAITS_S, WAITS_SIMULATED_S, Serving
+from robot.physics import GRAVITY_M_S2
+
+PERIOD_S = 0.002
+
+
+class Motors:
+    """Motors that do nothing, and keep what they are told."""
+
+    def __init__(self) -> None:
+        self.told: list[MotorCommand] = []
+        self.resets = 0
+
+    def write(self, command: MotorCommand) -> MotorCommand:
+        self.told.append(command)
+        return command
+
+    def reset(self) -> None:
+        self.resets += 1
+
+
+class Body:
+    """A robot that stands, with such motors; every look is a period later."""
+
+    def __init__(self, body, squat) -> None:
+        self.body, self.motors, self.now_s = body, Motors(), 0.0
+        self.q = np.array(body.description.posture("nominal"))
+        self.q[squat.legs] = squat.q_rad[8]
+
+    def read(self) -> BodySample:
+        self.now_s += PERIOD_S
+        zero = np.zeros(self.body.count)
+        state = MotorState(
+            self.now_s, self.q, zero, zero, zero, zero, watchdog=False, command_stamp_s=0.0
+        )
+        ankles = np.zeros((2, 6))
+        ankles[:, 2] = 0.5 * GRAVITY_M_S2 * self.body.mass_kg
+        up = ImuReading(self.now_s, np.zeros(3), np.array((0.0, 0.0, GRAVITY_M_S2)))
+        return BodySample(state, up, ForceReading(self.now_s, ankles, np.zeros((2, 6))))
+
+
+class Clock(SimulatedClock):
+    """Of a wall on which something happens while the owner waits."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.happens = lambda: None
+
+    def sleep_until(self, time_s: float) -> None:
+        super().sleep_until(time_s)
+        self.happens()
+
+
+class Rig:
+    """An owner at work, and a controller's side of its memory."""
+
+    def __init__(self, body, squat, folder, *, is_simulated: bool) -> None:
+        self.body, self.clock, self.lines = Body(body, squat), Clock(), list[str]()
+        self.memory = OwnerMemory(body.description, folder, create=True)
+        self.controller = OwnerMemory(body.description, folder)
+        self.is_pressed = False
+        self.owner = BusOwner(body, squat)
+        self.serving = Serving(
+            self.owner, self.body, self.memory, clock=self.clock, tell=self.lines.append,
+            is_simulated=is_simulated, is_pressed=lambda: self.is_pressed,
+        )  # fmt: skip
+        self.number = 0
+
+    def order(self, *, answers_s: float, tau_nm: float = 1.0) -> None:
+        self.number += 1
+        zero = np.zeros(self.body.body.count)
+        kp, kd = self.body.body.kp, self.body.body.kd
+        command = MotorCommand(answers_s, self.body.q, zero, zero + tau_nm, kp, kd)
+        self.controller.order(Order(self.number, answers_s + 2 * PERIOD_S, False, command))
+
+    def answer(self) -> None:
+        """As a controller does: when a state is there, a command for it."""
+        if (state := self.controller.news()) is not None:
+            self.order(answers_s=state.stamp_s)
+
+    def work(self, periods: int) -> None:
+        for _ in range(periods):
+            self.serving.period()
+
+    def begin(self) -> None:
+        """A controller has claimed the motors, and commands."""
+        assert self.controller.lock()
+        self.order(answers_s=self.body.now_s + PERIOD_S)
+        self.clock.happens = self.answer
+        self.work(10)
+
+    def fall_silent(self) -> None:
+        """As when its process dies: the system takes the claim away."""
+        self.clock.happens = lambda: None
+        self.controller.unlock()
+
+
+@pytest.fixture(params=[True, False], ids=["simulated", "real"])
+def rig(request, body, squat, tmp_path):
+    made = Rig(body, squat, tmp_path, is_simulated=request.param)
+    yield made
+    made.controller.close()
+    made.memory.close()
+
+
+def test_a_command_goes_out_in_the_period_that_it_answers(rig):
+    rig.begin()
+    rig.work(20)
+    assert rig.owner.state.level == Level.OK
+    assert rig.body.motors.told[-1].stamp_s == rig.body.now_s
+    assert rig.serving.holds == 0
+
+
+def test_a_late_answer_to_an_older_state_is_waited_past(rig):
+    """Else a controller that was late once would stay a period behind for ever."""
+    rig.begin()
+    rig.clock.happens = lambda: None
+    rig.order(answers_s=rig.body.now_s)  # of the period before, as the next one begins
+    rig.clock.happens = rig.answer
+    rig.work(1)
+    assert rig.body.motors.told[-1].stamp_s == rig.body.now_s
+
+
+def test_a_controller_that_lives_is_waited_for_and_no_longer_than_a_period_allows(rig):
+    rig.begin()
+    rig.clock.happens = lambda: None
+    begun_s = rig.clock.now_s()
+    rig.work(1)
+    waited_s = rig.clock.now_s() - begun_s
+    wanted_s = WAITS_SIMULATED_S if rig.serving._is_simulated else WAITS_S
+    assert waited_s == pytest.approx(wanted_s, abs=2e-4)
+    assert rig.owner.state.level == Level.HOLD
+
+
+def test_one_that_died_is_not_waited_for(rig):
+    rig.begin()
+    rig.fall_silent()
+    begun_s = rig.clock.now_s()
+    rig.work(20)
+    assert rig.clock.now_s() == begun_s
+    assert rig.owner.state.level == Level.SIT
+
+
+def test_before_anybody_commands_nobody_is_waited_for_and_nothing_is_sent(rig):
+    begun_s = rig.clock.now_s()
+    rig.work(50)
+    assert rig.clock.now_s() == begun_s
+    assert rig.body.motors.told == []
+
+
+def test_what_is_done_alone_is_told_with_its_hold_and_seen_by_controllers(rig):
+    rig.begin()
+    rig.fall_silent()
+    rig.work(6)
+    said = rig.controller.said()
+    assert [(one.level, one.code) for one in said.changes] == [
+        (Level.HOLD, "late"), (Level.SIT, "controller_lost"),
+    ]  # fmt: skip
+    assert said.changes[1].stamp_s - said.changes[0].stamp_s == pytest.approx(0.006)
+    assert [line.split(": ")[1] for line in rig.lines] == ["late", "controller_lost"]
+    (alarm,) = rig.controller.news().alarms
+    assert (alarm.who, alarm.level, alarm.code) == ("bus owner", "SIT", "controller_lost")
+    assert rig.controller.standing().level == Level.SIT
+
+
+def test_a_hold_that_a_command_ends_is_counted_and_not_told(rig):
+    rig.begin()
+    rig.clock.happens = lambda: None
+    rig.work(2)
+    rig.order(answers_s=rig.body.now_s + PERIOD_S)
+    rig.work(1)
+    assert rig.owner.state.level == Level.OK
+    assert (rig.serving.holds, rig.lines) == (1, [])
+
+
+def test_a_wish_on_the_way_down_is_refused_with_its_cause_and_one_at_the_end_is_taken(rig):
+    rig.begin()
+    rig.fall_silent()
+    rig.work(10)
+    wish = rig.controller.wish_reset()
+    rig.work(1)
+    standing = rig.controller.standing()
+    assert standing.answered == wish
+    assert "still give torque" in standing.refused
+    rig.work(3000)
+    assert rig.owner.state.level == Level.OFF
+    wish = rig.controller.wish_reset()
+    rig.work(1)
+    standing = rig.controller.standing()
+    assert (standing.answered, standing.refused, standing.level) == (wish, "", Level.OK)
+    assert rig.body.motors.resets == 1
+    told = len(rig.body.motors.told)
+    rig.work(10)
+    assert len(rig.body.motors.told) == told  # nothing, until a controller commands
+    rig.begin()
+    assert rig.owner.state.level == Level.OK
+    assert len(rig.body.motors.told) > told
+
+
+def test_pressed_there_is_no_torque_in_the_next_period_and_no_reset(rig):
+    rig.begin()
+    rig.is_pressed = True
+    rig.work(1)
+    last = rig.body.motors.told[-1]
+    assert not any((last.kp.any(), last.kd.any(), last.tau_ff.any()))
+    rig.controller.wish_reset()
+    rig.work(1)
+    assert "pressed" in rig.controller.standing().refused
+    rig.is_pressed = False
+    rig.work(10)
+    assert rig.owner.state.level == Level.OFF
+    rig.controller.wish_reset()
+    rig.work(1)
+    assert rig.controller.standing().level == Level.OK
