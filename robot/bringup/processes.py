@@ -65,7 +65,7 @@ robot that nobody holds up meanwhile falls."""
 
 PROCESSES: tuple[Process, ...] = (
     Process("plant", "sim.main", "simulation", death="plant_lost"),
-    Process("owner", "robot.owner.main", "owned", death="motor_fault"),
+    Process("owner", "robot.owner.main", "owned", death="motor_fault", stop_s=15.0),
     CONTROLLER,
     Process("perception", "robot.perception.main", "always", death="localisation_lost", restarts=3),
     Process(
@@ -73,7 +73,8 @@ PROCESSES: tuple[Process, ...] = (
         death="camera_unplugged", restarts=3, is_vital=False,
     ),
 )  # fmt: skip
-"""In the order of starting; they are stopped in the order of `STOP_ORDER`."""
+"""In the order of starting; they are stopped in the order of `STOP_ORDER`. The owner of the motors
+ends at once, but where it sits the robot down: for that it is given time (`stop_s`)."""
 
 STOP_ORDER = ("controller", "owner", "perception", "camera", "plant")
 """The controller first, while there is still a plant that takes its last command: damping."""

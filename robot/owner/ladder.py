@@ -12,8 +12,10 @@ from typing import NamedTuple
 
 from robot.drivers.motors.alarms import Level
 
-HOLDS_S = 0.006
-"""So long every joint is held where it was sent last, before the robot is lowered."""
+HOLDS_S, AT_MOST_S = 0.006, 0.020
+"""So long every joint is held where it was sent last, before the robot is lowered; the longer one
+where another controller has claimed the motors, or the old one still does: a spare's first tick
+takes more than a period, and a standing robot does not notice."""
 SEATED_S, DAMPED_S, TIPPING_S = 0.5, 2.0, 0.1
 SLACK_S = 1e-6
 """Sums of periods are not exact."""
@@ -24,6 +26,7 @@ class Signs(NamedTuple):
 
     Attributes:
         silent_s: no command came that is still good, since one did.
+        claimed_s: a process that lives has claimed the motors.
         astray_s: the robot does not stand on both feet, near a posture of its squat.
         lowering_s: it is being lowered.
         seated_s: the motion that lowers it has ended.
@@ -33,6 +36,7 @@ class Signs(NamedTuple):
     """
 
     silent_s: float = 0.0
+    claimed_s: float = 0.0
     astray_s: float = 0.0
     lowering_s: float = 0.0
     seated_s: float = 0.0
@@ -92,7 +96,9 @@ DOES: dict[Level, str] = {
 """What the owner does at each level, for people."""
 
 REARM = "look at the robot, then `humanoid motors rearm`"
-SILENT = Term("silent_s", HOLDS_S)
+LOST = (Term("silent_s", HOLDS_S), Term("claimed_s", is_not=True))
+SILENT = (Term("silent_s", AT_MOST_S),)
+STANDS, ASTRAY = Term("astray_s", is_not=True), Term("astray_s")
 
 ROWS: tuple[Row, ...] = (
     Row(
@@ -101,13 +107,22 @@ ROWS: tuple[Row, ...] = (
     ),
     Row(
         "controller_lost", Level.SIT,
-        f"none for more than {1000 * HOLDS_S:g} ms, and the robot stands on both feet",
-        REARM, (SILENT, Term("astray_s", is_not=True)), below=Level.SIT,
+        f"none for more than {1000 * HOLDS_S:g} ms, no controller has claimed the motors, and the "
+        "robot stands on both feet", REARM, (*LOST, STANDS), below=Level.SIT,
+    ),
+    Row(
+        "controller_silent", Level.SIT,
+        f"none for more than {1000 * AT_MOST_S:g} ms, though one has, and it stands",
+        REARM, (*SILENT, STANDS), below=Level.SIT,
     ),
     Row(
         "controller_lost_astray", Level.DAMP,
-        f"none for more than {1000 * HOLDS_S:g} ms, and it does not: in a step, lying",
-        REARM, (SILENT, Term("astray_s")), below=Level.SIT,
+        "as `controller_lost`, and it does not stand: in a step, lying",
+        REARM, (*LOST, ASTRAY), below=Level.SIT,
+    ),
+    Row(
+        "controller_silent_astray", Level.DAMP, "as `controller_silent`, and it does not stand",
+        REARM, (*SILENT, ASTRAY), below=Level.SIT,
     ),
     Row(
         "tipping", Level.DAMP,

@@ -41,7 +41,7 @@ def main(run_file: str, parent_pid: str) -> None:
             owner, devices, memory,
             clock=clock, tell=print, is_simulated=config.simulated, is_pressed=is_pressed,
         )  # fmt: skip
-        while not stop:
+        while not stop or serving.is_lowering:
             serving.period()
         serving.close()
 

@@ -61,6 +61,7 @@ class BusOwner:
         self._holding = Holding()
         self._astray, self._lowering, self._seated = Since(), Since(), Since()
         self._damping, self._let_go, self._stop = Since(), Since(), Since()
+        self._claimed = Since()
 
     @property
     def is_waited_for(self) -> bool:
@@ -68,7 +69,7 @@ class BusOwner:
         return self._heard_s is not None and not self.state.latched
 
     def decide(
-        self, sample: BodySample, order: Order | None, *, is_pressed: bool
+        self, sample: BodySample, order: Order | None, *, is_pressed: bool, is_claimed: bool
     ) -> MotorCommand | None:
         """What to send in this period.
 
@@ -76,13 +77,16 @@ class BusOwner:
             sample: what the body feels.
             order: a controller's new one, if there is one.
             is_pressed: whether the stop input is, or cannot be read.
+            is_claimed: whether a controller that lives has claimed the motors.
 
         Returns:
             None: nothing, as nobody has commanded yet; the motors are not enabled then.
         """
         now_s = sample.motors.stamp_s
         is_fresh = order is not None and not is_pressed and self._take(order, now_s)
-        self._signs = self._look(sample, is_fresh=is_fresh, is_pressed=is_pressed)
+        self._signs = self._look(
+            sample, is_fresh=is_fresh, is_pressed=is_pressed, is_claimed=is_claimed
+        )
         self.state = ladder.after(self.state, self._signs)
         if self.state.level > Level.OK:
             share = np.abs(sample.motors.tau) / self._body.torque_limit_nm
@@ -112,7 +116,9 @@ class BusOwner:
         self._heard_s = None if order.leaves else now_s
         return True
 
-    def _look(self, sample: BodySample, *, is_fresh: bool, is_pressed: bool) -> Signs:
+    def _look(
+        self, sample: BodySample, *, is_fresh: bool, is_pressed: bool, is_claimed: bool
+    ) -> Signs:
         now_s, level = sample.motors.stamp_s, self.state.level
         silent_s = 0.0 if is_fresh or self._heard_s is None else now_s - self._heard_s
         self._was_on |= self._is_sent and not sample.motors.watchdog
@@ -122,6 +128,7 @@ class BusOwner:
         lets_go = self._was_on and sample.motors.watchdog
         return Signs(
             silent_s=silent_s,
+            claimed_s=self._claimed.look(now_s, is_so=is_claimed),
             astray_s=self._astray.look(now_s, is_so=astray),
             lowering_s=self._lowering.look(now_s, is_so=lowering),
             seated_s=self._seated.look(now_s, is_so=seated),

@@ -35,7 +35,7 @@ WAITS_S = 0.0012
 """So long into a period of 2 ms a command is waited for; what comes later is for the next one."""
 WAITS_SIMULATED_S = 0.008
 """Of the wall's time, in a simulation, which waits 10 ms for commands: a slow machine is no dead
-controller. One that has died is not waited for."""
+controller, and a spare's millisecond is longer there. Else one that has died is not waited for."""
 POLL_S = 0.0001
 
 
@@ -133,11 +133,18 @@ class Serving:
         self._publish(sample)
         order = self._await()
         before = self._owner.state
-        command = self._owner.decide(sample, order, is_pressed=self._is_pressed())
+        command = self._owner.decide(
+            sample, order, is_pressed=self._is_pressed(), is_claimed=self._is_claimed(order)
+        )
         if command is not None:
             self._body.motors.write(command)
         if (state := self._owner.state)[:2] != before[:2]:
             self._note(state)
+
+    @property
+    def is_lowering(self) -> bool:
+        """Whether it sits the robot down just now: that is not broken off, but by a kill."""
+        return self._owner.state.level == Level.SIT
 
     def close(self) -> None:
         """Say how well commands came."""
@@ -163,11 +170,17 @@ class Serving:
         until_s = self._clock.now_s() + (WAITS_SIMULATED_S if self._is_simulated else WAITS_S)
         # A late answer to an older state is waited past: else it would stay a period behind.
         while order is None or order.command.stamp_s < self._stamp_s:
-            if self._clock.now_s() >= until_s or not memory.is_claimed():
+            if self._clock.now_s() >= until_s:
+                break
+            if not self._is_simulated and not memory.is_claimed():
                 break
             self._clock.sleep_until(self._clock.now_s() + POLL_S)
             order = memory.take() or order
         return order
+
+    def _is_claimed(self, order: Order | None) -> bool:
+        """Whether a controller that lives has claimed the motors; not asked where one commands."""
+        return order is not None or self._memory.is_claimed()
 
     def _answer(self) -> None:
         """Answer a person's wish for a reset."""

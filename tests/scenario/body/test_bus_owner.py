@@ -77,7 +77,7 @@ class Owned:
                 order = Order(self.number, now_s + GOOD_FOR_S, leaves=False, command=told)
             elif self.silent_from_s == math.inf:
                 self.silent_from_s = now_s - 0.001 * PERIOD_MS  # the last command's period
-            command = self.owner.decide(sample, order, is_pressed=is_pressed)
+            command = self.owner.decide(sample, order, is_pressed=is_pressed, is_claimed=commanded)
             if self.silent_from_s < math.inf:
                 self.told.setdefault(self.owner.state.level, now_s - self.silent_from_s)
                 used = np.abs(sample.motors.tau) / self.body.torque_limit_nm

@@ -24,7 +24,7 @@ class Rig:
         self.q = np.array(body.description.posture("nominal"))
         self.q[squat.legs] = squat.q_rad[8]
         self.bears = [0.5, 0.5]
-        self.lets_go = False
+        self.lets_go = self.is_claimed = False
         self.sent: list[MotorCommand | None] = []
 
     @property
@@ -61,7 +61,10 @@ class Rig:
         for _ in range(periods):
             self.period += 1
             order = self.order() if commanded else None
-            self.sent.append(self.owner.decide(self.sample(), order, is_pressed=is_pressed))
+            claimed = self.is_claimed or commanded
+            self.sent.append(
+                self.owner.decide(self.sample(), order, is_pressed=is_pressed, is_claimed=claimed)
+            )
         return self.sent[-1]
 
 
@@ -111,6 +114,25 @@ def test_held_joints_keep_their_last_targets_without_speed(rig):
         assert held.q_des == pytest.approx(last.q_des)
         assert held.tau_ff == pytest.approx(last.tau_ff)
         assert not held.qd_des.any()
+
+
+def test_one_that_stands_still_and_keeps_its_claim_is_given_20_ms(rig):
+    rig.pass_by(20, commanded=True)
+    rig.is_claimed = True
+    rig.pass_by(10)
+    assert rig.level == Level.HOLD
+    rig.pass_by()
+    assert (rig.level, rig.owner.state.code) == (Level.SIT, "controller_silent")
+
+
+def test_a_spare_that_claims_within_6_ms_has_until_20_ms_for_its_first_command(rig):
+    rig.pass_by(20, commanded=True)
+    rig.pass_by(3)
+    rig.is_claimed = True
+    rig.pass_by(7)
+    assert rig.level == Level.HOLD
+    rig.pass_by(commanded=True)
+    assert rig.owner.state == WELL
 
 
 def test_a_spare_within_the_hold_goes_on_and_nothing_is_latched(rig):
@@ -166,7 +188,9 @@ def test_a_robot_that_knows_no_squat_damps(body, squat):
 def test_a_command_after_its_deadline_is_not_carried_out(rig):
     rig.pass_by(20, commanded=True)
     rig.period += 1
-    sent = rig.owner.decide(rig.sample(), rig.order(late_s=0.006), is_pressed=False)
+    sent = rig.owner.decide(
+        rig.sample(), rig.order(late_s=0.006), is_pressed=False, is_claimed=True
+    )
     assert rig.owner.stale == 1
     assert rig.level == Level.HOLD
     assert not sent.qd_des.any()
@@ -175,7 +199,7 @@ def test_a_command_after_its_deadline_is_not_carried_out(rig):
 def test_a_controller_that_takes_its_leave_is_not_missed(rig):
     rig.pass_by(20, commanded=True)
     rig.period += 1
-    rig.owner.decide(rig.sample(), rig.order(leaves=True), is_pressed=False)
+    rig.owner.decide(rig.sample(), rig.order(leaves=True), is_pressed=False, is_claimed=True)
     rig.pass_by(500)
     assert rig.owner.state == WELL
 

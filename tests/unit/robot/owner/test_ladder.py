@@ -7,6 +7,7 @@ import pytest
 
 from robot.drivers.motors.alarms import Level
 from robot.owner.ladder import (
+    AT_MOST_S,
     BY_CODE,
     HOLDS_S,
     ROWS,
@@ -87,6 +88,15 @@ def test_silence_holds_for_6_ms_and_then_lowers():
 def test_a_robot_that_does_not_stand_damps_instead():
     levels = [state.level for state in Silence(astray_s=1.0).states(6)]
     assert levels == [Level.HOLD] * 3 + [Level.DAMP] * 3
+
+
+def test_where_a_controller_has_claimed_the_motors_it_holds_for_20_ms():
+    state = WELL
+    for period in range(1, 11):
+        state = after(state, Signs(silent_s=period * PERIOD_S, claimed_s=1.0))
+        assert state.level == Level.HOLD
+    state = after(state, Signs(silent_s=AT_MOST_S + PERIOD_S, claimed_s=1.0))
+    assert (state.level, state.code) == (Level.SIT, "controller_silent")
 
 
 def test_a_command_within_the_hold_ends_it_as_if_nothing_had_been():

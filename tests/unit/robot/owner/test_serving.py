@@ -143,13 +143,18 @@ def test_a_controller_that_lives_is_waited_for_and_no_longer_than_a_period_allow
     assert rig.owner.state.level == Level.HOLD
 
 
-def test_one_that_died_is_not_waited_for(rig):
+def test_one_that_died_is_not_waited_for_but_in_a_simulation_and_nobody_after_the_hold(rig):
     rig.begin()
     rig.fall_silent()
     begun_s = rig.clock.now_s()
+    rig.work(4)
+    waited_s = rig.clock.now_s() - begun_s
+    wanted_s = 4 * WAITS_SIMULATED_S if rig.serving._is_simulated else 0.0
+    assert waited_s == pytest.approx(wanted_s, abs=1e-3)
+    assert rig.owner.state.level == Level.SIT
+    begun_s = rig.clock.now_s()
     rig.work(20)
     assert rig.clock.now_s() == begun_s
-    assert rig.owner.state.level == Level.SIT
 
 
 def test_before_anybody_commands_nobody_is_waited_for_and_nothing_is_sent(rig):
@@ -182,6 +187,18 @@ def test_a_hold_that_a_command_ends_is_counted_and_not_told(rig):
     rig.work(1)
     assert rig.owner.state.level == Level.OK
     assert (rig.serving.holds, rig.lines) == (1, [])
+
+
+def test_only_a_sit_under_way_keeps_it_from_ending(rig):
+    assert not rig.serving.is_lowering
+    rig.begin()
+    assert not rig.serving.is_lowering
+    rig.fall_silent()
+    rig.work(4)
+    assert rig.serving.is_lowering
+    rig.work(2000)
+    assert rig.owner.state.level == Level.DAMP
+    assert not rig.serving.is_lowering
 
 
 def test_a_wish_on_the_way_down_is_refused_with_its_cause_and_one_at_the_end_is_taken(rig):
