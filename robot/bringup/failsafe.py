@@ -167,15 +167,15 @@ class Player:
 
     def _arm(self, memory: OwnerMemory) -> float:
         """Arm the motors; returns how long after it they were commanded again."""
-        before, armed_s = memory.last_number(), self._runtime.clock.now_s()
+        before, armed_s = memory.last_number(), memory.stamp_s()
         refused = rearming.asked(memory, self._wall).refused
         if refused:
             raise ProcessError(f"the owner was not to be armed again: {refused}")
         self._tell("a person arms it again")
         self._wait("no controller commands again", lambda: memory.last_number() > before)
-        after_s = self._runtime.clock.now_s() - armed_s
+        after_s = memory.command_stamp_s() - armed_s
         self._tell("a controller commands again, and damps: the robot lies")
-        return after_s
+        return round(after_s, 6)
 
     def _wait(self, complaint: str, is_so: Callable[[], bool]) -> None:
         while not is_so():

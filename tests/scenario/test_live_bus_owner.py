@@ -9,6 +9,7 @@ import pytest
 from robot.bringup import failsafe
 from robot.bringup.live import LiveRuntime
 from robot.clock import WallClock
+from robot.owner.ladder import AT_MOST_S, HOLDS_S
 from sim.simulation import Simulation
 from tests.fakes.waiting import eventually
 
@@ -36,8 +37,10 @@ def test_the_owner_goes_down_the_ladder_alone_and_obeys_nobody_before_it_is_arme
     if how == "press":
         assert within_s["OFF"] <= 0.004
     else:
-        held_s = {"kill": 0.006, "stop": 0.020}[how]
-        assert within_s["SIT"] == pytest.approx(within_s["HOLD"] + held_s, abs=1e-6)
+        # A process that was killed has its claim until the system has taken it apart.
+        least_s = {"kill": HOLDS_S, "stop": AT_MOST_S}[how]
+        held_s = within_s["SIT"] - within_s["HOLD"]
+        assert least_s - 1e-6 < held_s < AT_MOST_S + 1e-6
         assert within_s["DAMP"] < 3.1
         assert within_s["OFF"] < 5.2
     assert trial.most <= 1.0

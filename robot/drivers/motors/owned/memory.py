@@ -179,6 +179,11 @@ class OwnerMemory(Closing):
             watchdog=bool(values[2]), command_stamp_s=float(values[1]), alarms=self.said().alarms,
         )  # fmt: skip
 
+    def stamp_s(self) -> float:
+        """Of the newest state; -inf before the first."""
+        record = self._states.read()
+        return -np.inf if record is None else float(record[1][0])
+
     def standing(self) -> Standing:
         """How the owner is, as of its newest state."""
         if (record := self._states.read()) is not None:  # else it is torn, and the last one counts
