@@ -10,13 +10,11 @@ from robot.bus import run
 from robot.bus.lifeline import Stop, ask_for_real_time, tie_to_parent
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import WallClock
-from robot.drivers.motors import servos_and_others
-from robot.drivers.motors.can import joint_map
 from robot.drivers.registry import CAN, DYNAMIXEL
 from robot.drivers.simulation.shared_plant import PlantServer
 from robot.model import description
 from sim.live import LivePlant
-from sim.plant_buses import PlantBuses
+from sim.plant_buses import PlantBuses, maps
 from sim.scene_memory import SceneMemory
 from sim.simulation import Simulation
 
@@ -41,11 +39,7 @@ def main(run_file: str, parent_pid: str) -> None:
         clock = WallClock()
         buses = None
         if config.motors in (CAN, DYNAMIXEL):
-            servos, joints = None, None
-            if config.motors == CAN:
-                joints = joint_map.beside(robot)
-            else:
-                servos, joints = servos_and_others.maps(robot)
+            joints, servos = maps(robot, config.motors)
             buses = PlantBuses(plant, joints, config.memory, clock=clock, tell=print, servos=servos)
             stack.enter_context(buses)
         ask_for_real_time()

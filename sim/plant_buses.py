@@ -11,12 +11,17 @@ from pathlib import Path
 from robot.clock import Clock, SimulatedClock
 from robot.closing import Closing
 from robot.drivers.body_sample import BodySample
-from robot.drivers.motors.can import emulated
+from robot.drivers.motors import servos_and_others
+from robot.drivers.motors.can import joint_map
 from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.can.ports import socket_path
 from robot.drivers.motors.dynamixel.emulated import terminal_path
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
 from robot.drivers.motors.mounting import Mounted
+from robot.drivers.registry import CAN, DYNAMIXEL
+from robot.errors import ConfigError, Problem
+from robot.model.description import RobotDescription
+from sim.devices import can_motors
 from sim.devices.can_motor import CanMotor
 from sim.devices.can_motors import motor_on
 from sim.devices.dynamixel import Servo
@@ -34,6 +39,34 @@ THINKS_S = 0.0005
 the controller, as it does with simulated motors: a slow machine is no slow bus."""
 GATHER_S = 0.00005
 BIN_S, BINS = 0.0001, 100
+
+
+def maps(robot: RobotDescription, driver: str) -> tuple[JointMap | None, ServoMap | None]:
+    """Whose motors are on CAN, and whose are servos, for a driver; None: nobody's.
+
+    Raises:
+        ConfigError: as the maps' own readers.
+    """
+    if driver == CAN:
+        return joint_map.beside(robot), None
+    if driver == DYNAMIXEL:
+        servos, joints = servos_and_others.maps(robot)
+        return joints, servos
+    return None, None
+
+
+def check(joints: JointMap) -> None:
+    """Whether the motors of a map can be emulated behind a plant's buses.
+
+    Raises:
+        ConfigError: with all that cannot.
+    """
+    problems = can_motors.problems(joints)
+    if 1000 % joints.rate_hz:
+        text = f"{joints.rate_hz} Hz are no whole milliseconds, the steps of the physics"
+        problems.append(Problem(text, joints.file, suggestion="500"))
+    if problems:
+        raise ConfigError(problems)
 
 
 class PlantBuses(Closing):
@@ -73,7 +106,7 @@ class PlantBuses(Closing):
             OSError: a socket or a terminal cannot be made.
         """
         if joints is not None:
-            emulated.check(joints)
+            check(joints)
         self.took = [0] * (BINS + 1)
         self._tell, self._plant, self._clock = tell, plant, clock
         self._time = SimulatedClock(plant.time_s)

@@ -133,6 +133,14 @@ class Simulation:
 
         return cast(home(kind, seed), seed)
 
+    def check_motors(self, robot: RobotDescription, driver: str) -> None:
+        """Whether it emulates a robot's motors. Raises ConfigError with all that it does not."""
+        from sim import plant_buses  # and with it python-can, which nothing else here needs
+
+        joints, _ = plant_buses.maps(robot, driver)
+        if joints is not None:
+            plant_buses.check(joints)
+
     def motors(
         self, file: Path, *, flaws: Mapping[str, str], is_still: bool = False
     ) -> EmulatedBuses:

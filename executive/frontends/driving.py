@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from executive.frontends.composition_root import REALITY
 from executive.frontends.output import say
 from robot.errors import ConfigError, Problem
 from robot.model.description import RobotDescription
@@ -24,6 +25,8 @@ def chosen(driver: str, robot: RobotDescription, *, fast: bool, err: bool) -> st
     from robot.bringup import motor_choice  # the controller and python-can: of nobody else's start
 
     how = motor_choice.checked(robot, driver)
+    if how:
+        REALITY.check_motors(robot, driver)
     if how and fast:
         cure = "leave out --driver or --fast; in simulated time motors are commanded directly"
         raise ConfigError(

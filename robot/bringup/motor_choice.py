@@ -8,9 +8,7 @@ from robot.bringup.motor_families import BY_DRIVER, of
 from robot.bringup.motor_tools import loads
 from robot.control.loop import BUS_PERIOD_S
 from robot.drivers.motors import servos_and_others
-from robot.drivers.motors.can import emulated
 from robot.drivers.motors.can import joint_map as can_map
-from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.motor_map import MotorMap
 from robot.drivers.registry import CAN, MOTORS
 from robot.errors import ConfigError, Problem
@@ -36,15 +34,10 @@ def checked(robot: RobotDescription, driver: str) -> str:
         text = f"the robot {robot.name!r} has no joint map: which motor moves which joint"
         raise ConfigError([Problem(text, str(file), suggestion=cure)])
     if driver == CAN:
-        return _on_can(can_map.beside(robot))
+        return _on(can_map.beside(robot))
     servos, others = servos_and_others.maps(robot)
     said = _on(servos)
-    return said if others is None else f"{said} {_on_can(others)}"
-
-
-def _on_can(joints: JointMap) -> str:
-    emulated.check(joints)
-    return _on(joints)
+    return said if others is None else f"{said} {_on(others)}"
 
 
 def _on(joints: MotorMap) -> str:

@@ -116,6 +116,18 @@ class Reality(Protocol):
         """
         ...
 
+    def check_motors(self, robot: RobotDescription, driver: str) -> None:
+        """Whether it can emulate the motors of a robot behind their buses.
+
+        Args:
+            robot: with joint maps that can be read.
+            driver: of its motors; one that needs no bus needs no emulation.
+
+        Raises:
+            ConfigError: with all that it cannot.
+        """
+        ...
+
     def motors(
         self, file: Path, *, flaws: Mapping[str, str], is_still: bool = False
     ) -> EmulatedBuses:

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import cast
 
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
-from robot.drivers.motors.can.models import MODELS
-from robot.errors import ConfigError, Problem
+from robot.errors import ConfigError
+from sim.devices import can_motors
 from sim.devices.can_motor import FLAWS, CanMotor, Flaw
-from sim.devices.can_motors import EMULATED, motor_on
+from sim.devices.can_motors import motor_on
 from sim.devices.flaws import unknown
 from sim.devices.shaft import FreeShaft
 from sim.devices.wire import Wire
@@ -96,10 +96,6 @@ def _motor(
 
 
 def _check(wanted: JointMap, flaws: Mapping[str, str]) -> None:
-    problems = unknown(flaws, joints=wanted.joints, known=FLAWS)
-    for name, joint in wanted.joints.items():
-        if MODELS[joint.model].family not in EMULATED:
-            text = f"{name}: a {joint.model} is not emulated"
-            problems.append(Problem(text, wanted.file, suggestion=f"{', '.join(EMULATED)} are"))
-    if problems:
-        raise ConfigError(problems)
+    wrong = unknown(flaws, joints=wanted.joints, known=FLAWS) + can_motors.problems(wanted)
+    if wrong:
+        raise ConfigError(wrong)

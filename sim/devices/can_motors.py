@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from robot.drivers.motors.can.joint_map import JointMotor
+from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.drivers.motors.can.models import MODELS
+from robot.errors import Problem
 from sim.devices.can_motor import CanMotor
 from sim.devices.damiao import Damiao
 from sim.devices.robstride import RobStride
@@ -11,6 +12,19 @@ from sim.devices.shaft import Shaft
 from sim.devices.wire import Wire
 
 EMULATED: dict[str, type[CanMotor]] = {"damiao": Damiao, "robstride": RobStride}
+
+
+def problems(joints: JointMap) -> list[Problem]:
+    """Motors of a map that nobody here emulates."""
+    return [
+        Problem(
+            f"{name}: a {joint.model} is not emulated",
+            joints.file,
+            suggestion=f"{', '.join(EMULATED)} are",
+        )
+        for name, joint in joints.joints.items()
+        if MODELS[joint.model].family not in EMULATED
+    ]
 
 
 def motor_on(

@@ -12,32 +12,9 @@ from robot.drivers.motors.can.joint_map import Bus, JointMap
 from robot.drivers.motors.can.ports import PythonCan, socket_path
 from robot.drivers.motors.plant_behind import PlantBehind
 from robot.drivers.wiring import SimulatedPlant
-from robot.errors import ConfigError, Problem
 
 INTERFACE = "humanoid"
 """Of python-can (`sim.devices.python_can`)."""
-
-
-def check(joints: JointMap) -> None:
-    """Whether a simulation can emulate such motors.
-
-    Raises:
-        ConfigError: with all that it cannot.
-    """
-    problems = [
-        Problem(
-            f"{name}: a {joint.model} is not emulated",
-            joints.file,
-            suggestion="damiao, robstride are",
-        )
-        for name, joint in joints.joints.items()
-        if joint.family.asking is None
-    ]
-    if 1000 % joints.rate_hz:
-        text = f"{joints.rate_hz} Hz are no whole milliseconds, the steps of the physics"
-        problems.append(Problem(text, joints.file, suggestion="500"))
-    if problems:
-        raise ConfigError(problems)
 
 
 def buses_in(joints: JointMap, folder: Path) -> JointMap:

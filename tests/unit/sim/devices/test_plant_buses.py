@@ -7,13 +7,14 @@ import pytest
 from robot.control.loop import ControlLoop
 from robot.drivers.body_sample import BodySample
 from robot.drivers.motor_bus import MotorCommand
-from robot.drivers.motors.can import emulated, joint_map
+from robot.drivers.motors.can import joint_map
 from robot.drivers.motors.can.joint_map import MotorRanges
 from robot.errors import ConfigError, DriverError
 from robot.messages import Walk
 from robot.model import description
-from sim import world
+from sim import plant_buses, world
 from sim.plant import Plant
+from sim.simulation import Simulation
 from tests.fakes.can_lockstep import Lockstep
 
 
@@ -260,6 +261,21 @@ def test_what_nobody_emulates_is_refused(robot):
         "head_yaw": msgspec.structs.replace(found.joints["head_yaw"], model="AK70-10", ranges=old),
     }
     with pytest.raises(ConfigError, match=r"head_yaw: a AK70-10 is not emulated"):
-        emulated.check(msgspec.structs.replace(found, joints=joints))
+        plant_buses.check(msgspec.structs.replace(found, joints=joints))
     with pytest.raises(ConfigError, match="300 Hz are no whole milliseconds"):
-        emulated.check(msgspec.structs.replace(found, rate_hz=300))
+        plant_buses.check(msgspec.structs.replace(found, rate_hz=300))
+
+
+def test_reality_is_asked_what_it_emulates(robot, tmp_path):
+    """One truth: what is no row of `sim.devices.can_motors` is refused before a robot starts."""
+    for driver in ("can", "dynamixel", "simulated"):
+        Simulation().check_motors(robot, driver)
+    text = robot.path().with_name(joint_map.FILE).read_text()
+    (line,) = [line for line in text.splitlines() if line.strip().startswith("head_yaw:")]
+    model = line.split("model: ")[1].split(",")[0]
+    ranges = "ranges: {position_rad: 12.5, velocity_rad_s: 50, torque_nm: 25}, "
+    other = line.replace(f"model: {model},", f"model: AK70-10, {ranges}")
+    (tmp_path / joint_map.FILE).write_text(text.replace(line, other))
+    moved = msgspec.structs.replace(robot, folder=str(tmp_path))
+    with pytest.raises(ConfigError, match=r"head_yaw: a AK70-10 is not emulated"):
+        Simulation().check_motors(moved, "can")
