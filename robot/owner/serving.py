@@ -12,6 +12,7 @@ from robot.clock import Clock
 from robot.closing import Closing
 from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
 from robot.drivers.motors.alarms import NAMES, Level
+from robot.drivers.motors.naps import Naps
 from robot.drivers.motors.owned.memory import (
     CHANGES,
     Change,
@@ -36,7 +37,6 @@ WAITS_S = 0.0012
 WAITS_SIMULATED_S = 0.008
 """Of the wall's time, in a simulation, which waits 10 ms for commands: a slow machine is no dead
 controller, and a spare's millisecond is longer there. Else one that has died is not waited for."""
-POLL_S = 0.0001
 
 
 @runtime_checkable
@@ -117,6 +117,7 @@ class Serving:
         self._owner, self._body, self._memory = owner, body, memory
         self._clock, self._tell, self._is_pressed = clock, tell, is_pressed
         self._is_simulated = is_simulated
+        self._naps = Naps(clock)
         self._stamp_s = -1.0
         self._words = Reported()
         self._held: Change | None = None
@@ -168,14 +169,16 @@ class Serving:
         if not self._owner.is_waited_for:
             return order
         until_s = self._clock.now_s() + (WAITS_SIMULATED_S if self._is_simulated else WAITS_S)
+        self._naps.begin()
         # A late answer to an older state is waited past: else it would stay a period behind.
         while order is None or order.command.stamp_s < self._stamp_s:
             if self._clock.now_s() >= until_s:
                 break
             if not self._is_simulated and not memory.is_claimed():
                 break
-            self._clock.sleep_until(self._clock.now_s() + POLL_S)
+            self._naps.nap()
             order = memory.take() or order
+        self._naps.end()
         return order
 
     def _is_claimed(self, order: Order | None) -> bool:

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from robot.clock import Clock, WallClock
+from robot.drivers.motors.naps import Naps
 from robot.drivers.wiring import SimulatedPlant
 
-POLL_S = 0.0001
-SLEPT_SHARE, MOST_SLEPT_S = 0.5, 0.001
-"""For this part of the last wait the next one is slept through: whoever looks every 0.1 ms wakes up
-ten times a period for nothing, on a machine that has better things to do."""
 SAME_S = 1e-6
 """Sums of periods are not exact."""
 
@@ -38,8 +35,7 @@ class PlantClock:
 
     def __init__(self, plant: SimulatedPlant, *, wall: Clock | None = None) -> None:
         """Of a plant that is open whenever the time is asked for; `wall`: by which waits sleep."""
-        self._plant, self._wall = plant, wall or WallClock()
-        self._sleeps_s = 0.0
+        self._plant, self._naps = plant, Naps(wall or WallClock())
 
     def now_s(self) -> float:
         """When its newest period began. Raises DriverError if it went away."""
@@ -49,9 +45,8 @@ class PlantClock:
         """Wait. Raises DriverError if it went away."""
         if self.now_s() >= time_s - SAME_S:
             return
-        begun_s = self._wall.now_s()
-        self._wall.sleep_until(begun_s + max(POLL_S, self._sleeps_s))
+        self._naps.begin()
+        self._naps.nap()
         while self.now_s() < time_s - SAME_S:
-            self._wall.sleep_until(self._wall.now_s() + POLL_S)
-        waited_s = self._wall.now_s() - begun_s
-        self._sleeps_s = min(SLEPT_SHARE * waited_s, MOST_SLEPT_S)
+            self._naps.nap()
+        self._naps.end()

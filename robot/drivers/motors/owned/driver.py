@@ -12,6 +12,7 @@ from robot.clock import Clock
 from robot.closing import Closing
 from robot.drivers.motor_bus import Capability, MotorCommand, MotorState
 from robot.drivers.motors.alarms import Level
+from robot.drivers.motors.naps import POLL_S, Naps
 from robot.drivers.motors.owned.memory import NAME, Order, OwnerMemory
 from robot.errors import DriverError
 from robot.model.description import RobotDescription
@@ -19,7 +20,6 @@ from robot.model.description import RobotDescription
 PERIOD_S = 0.002
 GOOD_FOR_S = 2 * PERIOD_S
 """A command may be carried out for so long after the state that it answers: one period late."""
-POLL_S = 0.0001
 OPEN_TIMEOUT_S, SILENCE_S = 20.0, 1.0
 
 
@@ -46,6 +46,7 @@ class OwnedMotors(Closing):
         self._given: MotorState | None = None
         self._heard_s = 0.0
         self._number = 0
+        self._naps = Naps(clock)
         self._is_held = False
 
     def __enter__(self) -> Self:
@@ -99,11 +100,13 @@ class OwnedMotors(Closing):
             DriverError: if it is not open, or the owner said nothing for a second.
         """
         memory, begun_s = self._mapped(), self._clock.now_s()
+        self._naps.begin()
         while (state := self._fetch(memory)) is self._given:
             now_s = self._clock.now_s()
             if now_s >= begun_s + PERIOD_S:
                 return replace(state, age_s=state.age_s + (now_s - self._heard_s))
-            self._clock.sleep_until(now_s + POLL_S)
+            self._naps.nap()
+        self._naps.end()
         self._given = state
         return state
 

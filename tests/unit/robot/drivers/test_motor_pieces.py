@@ -15,8 +15,9 @@ from robot.drivers.motors.claim import Claim
 from robot.drivers.motors.holding import Holding
 from robot.drivers.motors.jumps import JUMPS_BELIEVED, Jumps
 from robot.drivers.motors.life import Life
+from robot.drivers.motors.naps import MOST_SLEPT_S, POLL_S, SLEPT_SHARE
 from robot.drivers.motors.periods import Periods
-from robot.drivers.motors.plant_behind import MOST_SLEPT_S, POLL_S, SLEPT_SHARE, PlantClock
+from robot.drivers.motors.plant_behind import PlantClock
 from robot.drivers.motors.speed_check import SpeedCheck
 from robot.errors import DriverError
 
