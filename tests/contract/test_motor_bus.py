@@ -12,7 +12,8 @@ import pytest
 from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
 from robot.drivers.motor_bus import Capability, MotorBus
-from robot.drivers.registry import MOTORS
+from robot.drivers.motors.owned.memory import OwnerMemory, Standing
+from robot.drivers.registry import MOTORS, commanded_motors
 from robot.drivers.simulation.shared_plant import SILENCE_S, PlantServer, SharedPlant
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
@@ -72,6 +73,23 @@ def simulated_elsewhere(tmp_path: Path) -> Device:
     return Device(driver(clock), driver(clock), clock, plant, period)
 
 
+def owned_elsewhere(tmp_path: Path) -> Device:
+    plant = FakePlant(COUNT)
+    memory = OwnerMemory(ROBOT, tmp_path, create=True)
+    memory.publish(plant.read().motors, Standing())
+
+    def period() -> None:
+        if (order := memory.take()) is not None:
+            plant.write(order.command)
+        plant.step(2)
+        memory.publish(plant.read().motors, Standing())
+
+    clock = SimulatedClock()
+    wiring = Wiring(robot=ROBOT, clock=clock, bus=LocalBus(), plant=plant, owner=tmp_path)
+    driver, spare = (commanded_motors(wiring) for _ in range(2))
+    return Device(driver, spare, clock, plant, period)
+
+
 def on_can(tmp_path: Path) -> Device:
     rig = Rig(can_map(ROBOT))
     plant = CanPlant(rig, (rig.driver, rig.another()))
@@ -85,7 +103,7 @@ def on_serial_ports(tmp_path: Path) -> Device:
 
 
 BENCHES = {
-    "simulated": (simulated_here, simulated_elsewhere),
+    "simulated": (simulated_here, simulated_elsewhere, owned_elsewhere),
     "can": (on_can,),
     "dynamixel": (on_serial_ports,),
 }
