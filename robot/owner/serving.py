@@ -8,11 +8,13 @@ from pathlib import Path
 from typing import Protocol, Self, runtime_checkable
 
 from robot.bus.run import Run
+from robot.bus.timing import Lateness
 from robot.clock import Clock
 from robot.closing import Closing
 from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
 from robot.drivers.motors.alarms import NAMES, Level
 from robot.drivers.motors.naps import Naps
+from robot.drivers.motors.owned.driver import PERIOD_S
 from robot.drivers.motors.owned.memory import (
     CHANGES,
     Change,
@@ -118,6 +120,7 @@ class Serving:
         self._clock, self._tell, self._is_pressed = clock, tell, is_pressed
         self._is_simulated = is_simulated
         self._naps = Naps(clock)
+        self._lateness = Lateness("owner", PERIOD_S)
         self._stamp_s = -1.0
         self._words = Reported()
         self._held: Change | None = None
@@ -129,7 +132,8 @@ class Serving:
         sample = self._body.read()
         if sample is None or sample.motors.stamp_s == self._stamp_s:
             return
-        self._stamp_s = sample.motors.stamp_s
+        stamp_s = self._stamp_s = sample.motors.stamp_s
+        self._lateness.tick(self._clock.now_s(), body_s=stamp_s if self._is_simulated else None)
         self._answer()
         self._publish(sample)
         order = self._await()
@@ -152,6 +156,12 @@ class Serving:
         self._tell(
             f"bus owner: {self.holds} holds for want of a command, {self._owner.stale} commands "
             f"too late, {self._memory.torn} torn records"
+        )
+        timing = self._lateness.report(self._stamp_s, self._clock.now_s())
+        self._tell(
+            f"bus owner: {timing.late} of {timing.count} periods late, by p50 "
+            f"{1000 * timing.p50_s:.2f}, p99 {1000 * timing.p99_s:.2f}, p99.9 "
+            f"{1000 * timing.p999_s:.2f} ms; {timing.missed} of them not for the simulation's sake"
         )
 
     def _publish(self, sample: BodySample) -> None:

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from robot.drivers.motor_bus import MotorCommand
 from robot.errors import DescriptionError
@@ -100,7 +101,7 @@ def _posture(
     return q if np.abs(error).max() < FOUND and is_inside else None
 
 
-def _misfit(body: BodyModel, data: Any, dofs: Array) -> tuple[Array, Array]:
+def _misfit(body: BodyModel, data: Any, dofs: NDArray[np.int64]) -> tuple[Array, Array]:
     """What soles and centre of mass are off by [m, rad], shape (14,), and how the dofs mend it."""
     model, half_m = body.model, 0.5 * body.description.walking.stance_width_m
     jac_p, jac_r = np.zeros((3, model.nv)), np.zeros((3, model.nv))

@@ -30,7 +30,7 @@ def simulate(asked: SimulateFailsafe) -> int:
         player = failsafe.Player(
             world, asked.robot, folder=Path(scratch), driver=driver, wall=WallClock(), tell=tell
         )
-        trial = player.play(asked.how)
+        trial = player.play(asked.how.value)
     # Whether it is all of the promise: no torque over a limit, no early reset, nobody obeyed.
     kept = trial.most <= 1.0 and all(trial.refusals) and trial.ignored
     if asked.as_json:
