@@ -28,6 +28,16 @@ joints:
   elbow: {bus: arm, model: DM4340, id: 2, gear: 2.0, lower_rad: 0.0, upper_rad: 2.4, velocity_limit_rad_s: 5, torque_limit_nm: 40}
   wrist: {bus: arm, model: DM4310, id: 3, lower_rad: -1.0, upper_rad: 1.0, velocity_limit_rad_s: 10, torque_limit_nm: 7}
 """  # noqa: E501
+ROBSTRIDES = """\
+rate_hz: 500
+buses:
+  arm: {channel: can0}
+joints:
+  shoulder: {bus: arm, model: RS04, id: 1, sign: -1, offset_rad: 0.3, lower_rad: -1.5, upper_rad: 2.0, velocity_limit_rad_s: 10, torque_limit_nm: 30}
+  elbow: {bus: arm, model: RS02, id: 2, gear: 2.0, lower_rad: 0.0, upper_rad: 2.4, velocity_limit_rad_s: 5, torque_limit_nm: 30}
+  wrist: {bus: arm, model: RS00, id: 3, lower_rad: -1.0, upper_rad: 1.4, velocity_limit_rad_s: 10, torque_limit_nm: 7}
+"""  # noqa: E501
+ROBSTRIDES_AND_A_DAMIAO = ROBSTRIDES.replace("model: RS02, id: 2", "model: DM4340, id: 1")
 
 
 def arm(folder: Path, text: str = ARM) -> JointMap:
@@ -82,6 +92,12 @@ class Rig(MotorRig):
         found = self.bench.motors[name]
         assert isinstance(found, Damiao)
         return found
+
+
+def killed(rig: Rig) -> None:
+    """What the system does to a process that is killed: its claim is free, nothing is said."""
+    rig.driver._is_armed = False
+    rig.driver._claim.release()
 
 
 def can_map(robot: RobotDescription, *, a_bus: int = 5) -> JointMap:
