@@ -130,7 +130,10 @@ class Serving:
     def period(self) -> None:
         """One period. Raises DriverError if the motors went away."""
         sample = self._body.read()
-        if sample is None or sample.motors.stamp_s == self._stamp_s:
+        if sample is None:
+            return
+        # Simulated time may stand still until the first command: that one is looked for.
+        if sample.motors.stamp_s == self._stamp_s and self._owner.is_waited_for:
             return
         stamp_s = self._stamp_s = sample.motors.stamp_s
         self._lateness.tick(self._clock.now_s(), body_s=stamp_s if self._is_simulated else None)

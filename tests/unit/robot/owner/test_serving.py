@@ -37,9 +37,10 @@ class Body:
         self.body, self.motors, self.now_s = body, Motors(), 0.0
         self.q = np.array(body.description.posture("nominal"))
         self.q[squat.legs] = squat.q_rad[8]
+        self.stands_still = False
 
     def read(self) -> BodySample:
-        self.now_s += PERIOD_S
+        self.now_s += 0.0 if self.stands_still else PERIOD_S
         zero = np.zeros(self.body.count)
         state = MotorState(
             self.now_s, self.q, zero, zero, zero, zero, watchdog=False, command_stamp_s=0.0
@@ -162,6 +163,21 @@ def test_before_anybody_commands_nobody_is_waited_for_and_nothing_is_sent(rig):
     rig.work(50)
     assert rig.clock.now_s() == begun_s
     assert rig.body.motors.told == []
+
+
+def test_where_time_stands_still_until_the_first_command_that_one_is_carried_out(rig):
+    rig.work(1)
+    rig.body.stands_still = True
+    for _ in range(3):
+        rig.controller.news()
+        rig.work(1)
+        assert rig.controller.news() is not None  # it says that it is there
+    assert rig.controller.lock()
+    rig.order(answers_s=rig.body.now_s)
+    rig.work(1)
+    assert len(rig.body.motors.told) == 1
+    rig.work(3)
+    assert len(rig.body.motors.told) == 1  # once a period
 
 
 def test_what_is_done_alone_is_told_with_its_hold_and_seen_by_controllers(rig):
