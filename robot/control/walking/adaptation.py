@@ -42,3 +42,20 @@ def cheapest_time(cost: Callable[[float], float], shortest_s: float, longest_s: 
     """
     span_s = max(0.0, longest_s - shortest_s) / (TIMES - 1)
     return min((shortest_s + i * span_s for i in range(TIMES)), key=cost)
+
+
+def nearest_time(
+    begins: Callable[[float], Point], xi: Point, shortest_s: float, longest_s: float
+) -> float:
+    """The time [s] to shift the weight in, of which the plan begins nearest to where the DCM is.
+
+    Soon where it runs ahead. Where the foot came down early the DCM has not got there yet: with the
+    weight on the new foot at once the robot is left behind, and has to run backwards after it.
+
+    Args:
+        begins: the DCM [m] at which the plan of such a shift begins.
+        xi: the measured DCM [m].
+        shortest_s: the least time.
+        longest_s: the most.
+    """
+    return cheapest_time(lambda shift_s: math.dist(xi, begins(shift_s)), shortest_s, longest_s)

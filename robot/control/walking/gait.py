@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from robot.control.walking import zmp_plan
+from robot.control.walking.adaptation import nearest_time
 from robot.control.walking.catching import Catch
 from robot.control.walking.dcm import DcmPlan, Point
 from robot.control.walking.footsteps import (
@@ -288,10 +289,14 @@ class Gait:
         self._heading_rad = self._heading_then_rad
         if going_on:
             self._landings = self._look_ahead(self._next(before) or self._landings[1])
+            zmp = point_of(self.planted[before])
             duration_s = self.description.walking.double_support_s + unused_s
             if urgent:
-                duration_s = min(duration_s, catching.double_support_s)
-            self._start_double(duration_s, point_of(self.planted[before]))
+                duration_s = nearest_time(
+                    lambda shift_s: self._stepping(shift=(zmp, shift_s)).at(0.0)[0], xi,
+                    min(catching.double_support_s, duration_s), duration_s,
+                )  # fmt: skip
+            self._start_double(duration_s, zmp)
         else:
             self._landings = []
             self._start_double(
@@ -345,15 +350,18 @@ class Gait:
             centre, omega_1_s = self._stance_centre(), self.omega_1_s
             self._plan = zmp_plan.coming_to_rest(zmp, centre, self.duration_s, omega_1_s)
             return
+        self._plan = self._stepping(shift=(zmp, self.duration_s) if double else None)
+
+    def _stepping(self, *, shift: tuple[Point, float] | None) -> DcmPlan:
         walking = self.description.walking
-        self._plan = zmp_plan.stepping(
+        return zmp_plan.stepping(
             walking,
             support=self.planted[self.support],
             swing=self.planted[other(self.support)],
             landings=self._landings,
             single_s=self._one_leg_s or walking.single_support_s,
             omega_1_s=self.omega_1_s,
-            shift=(zmp, self.duration_s) if double else None,
+            shift=shift,
         )
 
     def _adjust(self, dt_s: float, xi: Point) -> None:
@@ -369,7 +377,7 @@ class Gait:
             omega_1_s=self.omega_1_s,
             gain_1_s=self.description.balance.dcm_1_s,
             xi=xi,
-            zmp=self._command(xi, xi_ref, zmp_ref),
+            zmp=self._command(xi, xi_ref, zmp_ref, beyond_m=0.0),
             planned=self._landings[0],
             support=self.planted[self.support],
             side=other(self.support),
@@ -401,13 +409,11 @@ class Gait:
             return self.phase_s
         return min(1.0, self.phase_s / self.duration_s) * self._nominal_s
 
-    def _command(self, xi: Point, xi_ref: Point, zmp_ref: Point) -> Point:
-        """The ZMP that brings the DCM back, clipped to the support (walking: or just beyond)."""
+    def _command(self, xi: Point, xi_ref: Point, zmp_ref: Point, *, beyond_m: float) -> Point:
+        """The ZMP that brings the DCM back, clipped to the support or so far beyond it."""
         gain = 1.0 + self.description.balance.dcm_1_s / self.omega_1_s
         x = zmp_ref[0] + gain * (xi[0] - xi_ref[0]) + self._integral[0]
         y = zmp_ref[1] + gain * (xi[1] - xi_ref[1]) + self._integral[1]
-        # Standing, the trunk's help costs more than it catches: 14 N s, 14 of 16 without, 13 with.
-        beyond_m = 0.0 if self.phase == "stand" else self.description.balance.trunk_zmp_m
         return self._polygon.clip((x, y), beyond_m=beyond_m)
 
     def _reference(self, dt_s: float, xi: Point) -> Reference:
@@ -420,7 +426,9 @@ class Gait:
                 self._integral[k] = max(-most_m, min(most_m, step))
         elif self.phase == "single":
             self._integral = [0.0, 0.0]
-        command = self._command(xi, xi_ref, zmp_ref)
+        # Standing, the trunk's help costs more than it catches: 14 N s, 14 of 16 without, 13 with.
+        beyond_m = 0.0 if self.phase == "stand" else self.description.balance.trunk_zmp_m
+        command = self._command(xi, xi_ref, zmp_ref, beyond_m=beyond_m)
         beyond_m = -self._polygon.margin_m(command)
         strain = max(0.0, min(1.0, beyond_m / self.description.balance.trunk_zmp_m))
         contact, share = [True, True], [2.0, 2.0]

@@ -28,8 +28,8 @@ def robot(request, tmp_path_factory) -> str:
     return bodies.written(variant(folder), folder)
 
 
-def standing(robot: str) -> Rig:
-    rig = Rig(robot=robot)
+def standing(robot: str, *, reality: str = "ideal") -> Rig:
+    rig = Rig(robot=robot, reality=reality)
     assert rig.run(0.3)
     return rig
 
@@ -45,6 +45,16 @@ def test_it_walks_and_stops_without_falling_or_being_clamped(robot):
     assert rig.wait("legs", 8.0) == "done"
     assert rig.X_WS.p[0] > 0.7
     assert abs(rig.X_WS.p[1]) < 0.05
+    assert rig.loop.state().clamped == 0
+
+
+@on("g1")
+def test_short_narrow_soles_walk_a_bend_with_late_motors_and_loose_gears(robot):
+    rig = standing(robot, reality="real")
+    fastest = rig.robot.walking.max_forward_m_s
+    rig.send(Walk, forward_m_s=fastest, left_m_s=0.0, turn_rad_s=0.5, hold_s=8.0)
+    assert rig.run(8.0)
+    assert rig.upright
     assert rig.loop.state().clamped == 0
 
 

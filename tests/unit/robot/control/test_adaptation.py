@@ -11,6 +11,7 @@ from robot.control.walking.adaptation import (
     cheapest_time,
     dcm_at_end,
     error_at_end,
+    nearest_time,
 )
 
 OMEGA_1_S, GAIN_1_S = 4.2, 4.0
@@ -60,3 +61,16 @@ def test_the_cheapest_time_is_near_the_best_and_between_the_bounds(best_s, short
 
 def test_with_no_time_left_it_is_the_soonest():
     assert cheapest_time(lambda t: -t, 0.5, 0.4) == 0.5
+
+
+@given(st.floats(0.05, 0.1), st.floats(0.1, 0.3), st.floats(-0.1, 0.4))
+def test_the_weight_is_shifted_in_the_time_that_suits_the_dcm(shortest_s, longest_s, x):
+    """A plan that takes longer begins further back."""
+
+    def begins(shift_s):
+        return -shift_s, 0.0
+
+    chosen_s = nearest_time(begins, (-x, 0.0), shortest_s, longest_s)
+    assert shortest_s - 1e-12 <= chosen_s <= longest_s + 1e-12
+    best_s = min(max(x, shortest_s), longest_s)
+    assert abs(chosen_s - best_s) <= (longest_s - shortest_s) / (TIMES - 1)

@@ -190,6 +190,39 @@ def test_a_dcm_that_escapes_ahead_hastens_the_step(pendulum, juno):
     assert gait.duration_s < 0.8 * juno.walking.single_support_s
 
 
+def test_a_step_is_put_down_for_what_the_sole_holds_not_the_trunk(pendulum, juno):
+    """The trunk's turning helps for a tenth of a second; a DCM behind the heel runs on after that."""
+    gait = pendulum.gait
+    pendulum.run(2.0, wish=lambda _: Twist(forward_m_s=0.3))
+    while gait.phase != "single" or gait.phase_s < 0.1:
+        pendulum.tick()
+    foot = gait.planted[gait.support]
+    heel_m = juno.feet["left"].half_length_m - juno.balance.zmp_margin_m
+    behind = (foot.x - heel_m - 0.03, foot.y)
+    for _ in range(20):
+        pendulum.xi = list(behind)
+        pendulum.tick()
+    assert gait.phase == "single"
+    assert gait.duration_s < juno.walking.single_support_s  # it does not wait to be brought back,
+    assert gait.swing.landing[0] < foot.x - heel_m  # and goes behind the foot that stands
+
+
+def test_a_foot_that_came_down_early_waits_for_the_dcm(pendulum, juno):
+    """With the weight on it at once the robot would be left behind, and run backwards after it."""
+    gait = pendulum.gait
+    pendulum.run(2.0, wish=lambda _: Twist(forward_m_s=0.35))
+    while gait.phase != "single" or gait.phase_s < 0.75 * gait.duration_s:
+        pendulum.tick()
+    side = SIDES[1 - SIDES.index(gait.support)]
+    pendulum.xi[0] -= 1.5 * juno.walking.catching.late_m
+    load = [0.4, 0.4]
+    xi = tuple(pendulum.xi)
+    gait.update(DT_S, xi, dict(pendulum.feet), load)
+    assert gait.phase == "double"
+    assert gait.support == side
+    assert gait.duration_s > 2.0 * juno.walking.catching.double_support_s
+
+
 def test_a_foot_that_slides_on_as_it_lands_carries_the_robot_where_it_ends(pendulum):
     """Against the support where it touched the DCM would seem to escape, and another step begin."""
     gait = pendulum.gait
