@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Literal
 
 from robot.control.walking import zmp_plan
@@ -275,33 +276,28 @@ class Gait:
     def _touch_down(self, side: Side, measured: dict[Side, Sole], xi: Point) -> None:
         """The swing foot bears: plan the next double support from where it really stands."""
         xi_ref, _ = self._plan.at(self._plan_time())
-        catching = self.description.walking.catching
-        urgent = math.dist(xi, xi_ref) > catching.late_m
         unused_s = max(0.0, min(MAX_UNUSED_S, self.duration_s - self.phase_s))
-        going_on = len(self._landings) > 1
         before = self.support
-        self.planted[side] = measured[side]
-        self.planted[before] = measured[before]
+        self.planted.update(measured)
         self.support = side
-        self.swing = None
-        self._one_leg_s = 0.0
+        self.swing, self._one_leg_s = None, 0.0
         self.steps_taken += 1
         self._heading_rad = self._heading_then_rad
-        if going_on:
-            self._landings = self._look_ahead(self._next(before) or self._landings[1])
-            zmp = point_of(self.planted[before])
-            duration_s = self.description.walking.double_support_s + unused_s
-            if urgent:
-                duration_s = nearest_time(
-                    lambda shift_s: self._stepping(shift=(zmp, shift_s)).at(0.0)[0], xi,
-                    min(catching.double_support_s, duration_s), duration_s,
-                )  # fmt: skip
-            self._start_double(duration_s, zmp)
-        else:
+        zmp, walking = point_of(self.planted[before]), self.description.walking
+        if len(self._landings) <= 1:
             self._landings = []
-            self._start_double(
-                self.description.walking.stop_s + unused_s, point_of(self.planted[before])
-            )
+            self._start_double(walking.stop_s + unused_s, zmp)
+            return
+        self._landings = self._look_ahead(self._next(before) or self._landings[1])
+        duration_s = walking.double_support_s + unused_s
+        if math.dist(xi, xi_ref) > walking.catching.late_m:
+            soon_s = min(walking.catching.double_support_s, duration_s)
+            duration_s = nearest_time(partial(self._shift_begins, zmp), xi, soon_s, duration_s)
+        self._start_double(duration_s, zmp)
+
+    def _shift_begins(self, zmp: Point, duration_s: float) -> Point:
+        """The DCM at which a shift of the weight begins that takes so long."""
+        return self._stepping((zmp, duration_s)).at(0.0)[0]
 
     def _start_double(self, duration_s: float, zmp: Point) -> None:
         self.phase, self.phase_s, self.duration_s = "double", 0.0, duration_s
@@ -312,8 +308,7 @@ class Gait:
         walking = self.description.walking
         side = other(self.support)
         self.phase, self.phase_s = "single", 0.0
-        self.duration_s = self._one_leg_s or walking.single_support_s
-        self._nominal_s = self.duration_s
+        self.duration_s = self._nominal_s = self._one_leg_s or walking.single_support_s
         landing = self._landings[0]
         if not self._one_leg_s:
             self._landings = self._look_ahead(landing)
@@ -350,9 +345,9 @@ class Gait:
             centre, omega_1_s = self._stance_centre(), self.omega_1_s
             self._plan = zmp_plan.coming_to_rest(zmp, centre, self.duration_s, omega_1_s)
             return
-        self._plan = self._stepping(shift=(zmp, self.duration_s) if double else None)
+        self._plan = self._stepping((zmp, self.duration_s) if double else None)
 
-    def _stepping(self, *, shift: tuple[Point, float] | None) -> DcmPlan:
+    def _stepping(self, shift: tuple[Point, float] | None) -> DcmPlan:
         walking = self.description.walking
         return zmp_plan.stepping(
             walking,

@@ -191,7 +191,7 @@ def test_a_dcm_that_escapes_ahead_hastens_the_step(pendulum, juno):
 
 
 def test_a_step_is_put_down_for_what_the_sole_holds_not_the_trunk(pendulum, juno):
-    """The trunk's turning helps for a tenth of a second; a DCM behind the heel runs on after that."""
+    """The trunk's turning helps for a tenth of a second; a DCM behind the heel runs on."""
     gait = pendulum.gait
     pendulum.run(2.0, wish=lambda _: Twist(forward_m_s=0.3))
     while gait.phase != "single" or gait.phase_s < 0.1:
