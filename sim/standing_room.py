@@ -2,7 +2,7 @@
 
 Who stands in a doorway steps back through it, and then aside. Nobody makes room before a door, or
 between the robot and a door ahead of it, who can do so elsewhere: who wants to pass may want to
-go through.
+go through. Nor does anybody cross before the robot who can keep to their side of its way.
 """
 
 from __future__ import annotations
@@ -36,6 +36,8 @@ WIDE_LANE_M = 1.3
 """The same for who is asked again soon: what the robot wants is not straight before it."""
 
 
+MIDDLE_M = 0.15
+"""Who stands as near as this to the line ahead has no side yet."""
 DOORSTEP_M = 0.9
 """From the middle of a doorway: who goes through comes as near as this to it, and turns there."""
 DOOR_AHEAD_M = 4.0
@@ -55,7 +57,8 @@ def way_out(
 ) -> tuple[Point, ...]:
     """The way to the nearest spot out of the robot's way, that far from it; empty: there is none.
 
-    Straight if possible, else around one corner; on the way to a door only if nowhere else.
+    Straight if possible, else around one corner; across the robot's way only if nowhere else, and
+    on the way to a door if there is no spot besides.
     """
     bare = msgspec.structs.replace(world, people=())
     doorways = atlas.doorways(world)
@@ -66,7 +69,11 @@ def way_out(
     def is_off_doors(spot: Point) -> bool:
         return is_clear(spot) and not any(_is_on_the_way(spot, door, around) for door in doorways)
 
-    return _way_to(is_off_doors, bare, at, around) or _way_to(is_clear, bare, at, around)
+    return (
+        _way_to(is_off_doors, bare, at, around, own_side=True)
+        or _way_to(is_off_doors, bare, at, around)
+        or _way_to(is_clear, bare, at, around)
+    )
 
 
 def _is_on_the_way(spot: Point, door: Point, around: Around) -> bool:
@@ -82,19 +89,30 @@ def _is_on_the_way(spot: Point, door: Point, around: Around) -> bool:
 
 
 def _way_to(
-    will_do: Callable[[Point], bool], world: World, at: Point, around: Around
+    will_do: Callable[[Point], bool],
+    world: World,
+    at: Point,
+    around: Around,
+    *,
+    own_side: bool = False,
 ) -> tuple[Point, ...]:
-    """The way to the nearest spot that will do, straight or around one corner."""
+    """The way to the nearest spot that will do, straight or around one corner.
+
+    With `own_side` only where they are on the same side of the robot's way all along.
+    """
+
+    def may_be(spot: Point) -> bool:
+        return not own_side or not _is_across(at, spot, around)
 
     def free_spot(start: Point) -> Point | None:
-        spots = filter(will_do, _candidates(start, around))
+        spots = (spot for spot in _candidates(start, around) if will_do(spot) and may_be(spot))
         return next((spot for spot in spots if _is_free_way(world, start, spot, around)), None)
 
     spot = free_spot(at)
     if spot is not None:
         return (spot,)
     for corner in _candidates(at, around, CORNERS_M):
-        if _is_free_way(world, at, corner, around):
+        if may_be(corner) and _is_free_way(world, at, corner, around):
             spot = free_spot(corner)
             if spot is not None:
                 return (corner, spot)
@@ -123,9 +141,21 @@ def _is_out_of_the_way(spot: Point, around: Around, apart_m: float, lane_m: floa
 
 def _in_lane(spot: Point, around: Around) -> tuple[float, float]:
     """How far ahead of the robot and how far aside of its line a point is [m]."""
+    ahead_m, left_m = _from_robot(spot, around)
+    return ahead_m, abs(left_m)
+
+
+def _from_robot(spot: Point, around: Around) -> Point:
+    """A point, ahead and to the left of the robot [m]."""
     dx, dy = spot[0] - around.robot[0], spot[1] - around.robot[1]
     cos, sin = math.cos(around.heading_rad), math.sin(around.heading_rad)
-    return dx * cos + dy * sin, abs(dy * cos - dx * sin)
+    return dx * cos + dy * sin, dy * cos - dx * sin
+
+
+def _is_across(at: Point, spot: Point, around: Around) -> bool:
+    """Whether a spot ahead of the robot is on the other side of its line than somebody is."""
+    (_, left_m), (ahead_m, there_m) = _from_robot(at, around), _from_robot(spot, around)
+    return abs(left_m) > MIDDLE_M and ahead_m > 0.0 and left_m * there_m < 0.0
 
 
 def _is_free_way(world: World, at: Point, spot: Point, around: Around) -> bool:

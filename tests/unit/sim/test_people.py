@@ -145,6 +145,28 @@ def test_who_has_to_leave_a_wide_lane_goes_farther():
     assert not in_the_way(far, around, within_m=2.0, lane_m=WIDE_LANE_M)
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize(("ahead_m", "aside_m"), [(1.0, 0.2), (1.2, 0.6), (1.5, 0.2)])
+def test_nobody_crosses_before_the_robot_who_can_keep_to_their_side(ahead_m, aside_m, side):
+    around = Around((0.0, 0.0), 0.0)
+    way = way_out(_hall(2.2), (ahead_m, side * aside_m), around)
+    assert all(side * spot[1] > 0.0 for spot in way)
+    assert not in_the_way(way[-1], around, within_m=2.0)
+
+
+def test_who_has_a_wall_beside_them_crosses():
+    around = Around((0.0, 0.3), 0.0)
+    *_, spot = way_out(_hall(2.0), (1.2, 0.6), around)
+    assert spot[1] < 0.3
+    assert not in_the_way(spot, around, within_m=2.0)
+
+
+def _hall(wide_m: float):
+    walls = ("north", "south", "east", "west")
+    hall = Room(id="hall", at_m=(0.0, 0.0), size_m=(6.0, wide_m), walls=walls)
+    return msgspec.structs.replace(world.empty(), rooms=(hall,))
+
+
 def test_who_just_made_room_and_is_asked_again_makes_more():
     plant = bench(behind_m=0.7)
     places = []
