@@ -68,20 +68,25 @@ def ask_view_past_people(body: Body, request: LookRequest) -> Script[LookPlan]:
 
 
 def _may_be_people(reason: Failure, around: Surroundings) -> bool:
-    people = {person.id for person in around.map.people}
     blockers = str(reason.evidence.get("blocked_by", "")).split(", ")
-    return bool(people) and (reason.code in CLOSED or not people.isdisjoint(blockers))
+    closed = reason.code in CLOSED or not _of_people(around).isdisjoint(blockers)
+    return closed and bool(around.map.people)
 
 
 def _without_people(request: R) -> R:
     """The same request, but nobody is there, nor what the sensors see of them."""
     around = request.around
+    ignored = (*around.ignored, *sorted(_of_people(around)))
+    around = msgspec.structs.replace(around, ignored=ignored)
+    return msgspec.structs.replace(request, around=around)
+
+
+def _of_people(around: Surroundings) -> frozenset[str]:
+    """The people, and what the sensors see of them, which may stand for them in a failure."""
     people = around.map.people
-    seen = [
+    seen = (
         thing.id
         for thing in around.unmapped
         if any(clearance_m(one.X_WO.p[:2], thing) < one.radius_m + BESIDE_M for one in people)
-    ]
-    ignored = (*around.ignored, *(person.id for person in people), *seen)
-    around = msgspec.structs.replace(around, ignored=ignored)
-    return msgspec.structs.replace(request, around=around)
+    )
+    return frozenset((*(person.id for person in people), *seen))
