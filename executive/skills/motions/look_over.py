@@ -8,14 +8,16 @@ from collections.abc import Callable
 import numpy as np
 
 from executive.skills.motions.body_access import Body
-from executive.skills.motions.gaze import check_camera, turn_head
+from executive.skills.motions.final_steps import miss, step_to
+from executive.skills.motions.gaze import check_camera, look_at, turn_head
 from executive.skills.motions.likelihood import surfaces_of
 from executive.skills.motions.past_people import ask_view_past_people
-from executive.skills.motions.planning import stance_of
-from executive.skills.motions.script import GaveUp, Script
+from executive.skills.motions.personal_space import get_familiar
+from executive.skills.motions.planning import pose_of, stance_of
+from executive.skills.motions.script import OVER, GaveUp, Script
 from executive.skills.motions.support import surroundings
 from executive.skills.motions.survey import Rows, Survey
-from executive.skills.motions.walk import stand_still, turn_by, walk_to
+from executive.skills.motions.walk import stand_still, turn_by, walk_near
 from robot.planning.requests import LookPlan, LookRequest, Stance
 from robot.se3 import Vector3, wrap_angle
 
@@ -23,6 +25,9 @@ GLANCE_S, STARE_S = 0.35, 0.9
 """A picture or two at least; at most until what should show has shown (pictures come at 5 Hz)."""
 NEAR_GAZE_RAD = 0.45
 HERE_M, SMALL_TURN_RAD = 0.1, 0.2
+VIEW_M, VIEW_RAD = 0.15, 0.2
+"""So near to where a view was planned from it is one: places to look from are tried 0.2 m apart,
+and the head turns by more than that."""
 NO_WAY = ("no_path", "goal_in_collision", "path_blocked")
 
 BESIDES_S = 240.0
@@ -57,6 +62,14 @@ def look_over(body: Body, survey: Survey, until: Until, *, stay: bool = False) -
 
     Returns whether it came to be so; the robot stands then. With `stay` it only turns on the spot.
     """
+    found = yield from _look_over(body, survey, until, stay=stay)
+    if body.state.mode != "stand":
+        yield from stand_still(body)
+    return found
+
+
+def _look_over(body: Body, survey: Survey, until: Until, *, stay: bool) -> Script[bool]:
+    """The same; what was seen in passing is no reason for the feet to stop."""
     while True:
         survey.take(body.world.looked)
         if until():
@@ -68,15 +81,16 @@ def look_over(body: Body, survey: Survey, until: Until, *, stay: bool = False) -
         assert plan.stance is not None
         body.phase = f"looking over {survey.names(rows)}"
         try:
-            yield from _go(body, plan.stance, until)
+            yield from _go(body, plan, _or_seen(body, survey, rows, until))
         except GaveUp as end:
             if end.failure.code not in NO_WAY:
                 raise
             survey.tried(rows, plan.stance[:2])
             continue
-        for p_W in plan.gazes_W:
-            if (yield from _gaze(body, survey, p_W, rows, until)):
-                return True
+        if not survey.unseen(rows) and not until():
+            continue
+        if (yield from _standing(body, _gazes(body, survey, plan, rows, until))):
+            return True
         survey.tried(rows, plan.stance[:2])
 
 
@@ -89,7 +103,8 @@ def stand_to_see(body: Body, p_W: Vector3) -> Script[bool]:
     if plan.stance is None:
         return False
     try:
-        yield from _go(body, plan.stance, lambda: False)
+        yield from _go(body, plan, lambda: False)
+        yield from stand_still(body)
     except GaveUp as end:
         if end.failure.code not in NO_WAY:
             raise
@@ -116,13 +131,18 @@ def _next_view(body: Body, survey: Survey, *, stay: bool) -> Script[tuple[LookPl
     return None
 
 
-def _go(body: Body, stance: Stance, until: Until) -> Script[None]:
-    """Walk to a stance, or turn to face as there; stop on the way when it has come to be so."""
-    x_m, y_m, yaw_rad = stance
+def _go(body: Body, plan: LookPlan, until: Until) -> Script[None]:
+    """Walk to about where a view is, or turn to face as there; stop when something is so before.
+
+    The last steps are taken with the eyes on what they are to rest on first, and the body is left
+    walking.
+    """
+    assert plan.stance is not None
+    x_m, y_m, yaw_rad = plan.stance
     here = stance_of(body.X_WS)
     turn_rad = wrap_angle(yaw_rad - here[2])
     if np.hypot(x_m - here[0], y_m - here[1]) > HERE_M:
-        move = walk_to(body, stance)
+        move = _walk_to_view(body, plan.stance, plan.gazes_W[0])
     elif abs(turn_rad) > SMALL_TURN_RAD:
         move = turn_by(body, turn_rad)
     else:
@@ -130,9 +150,56 @@ def _go(body: Body, stance: Stance, until: Until) -> Script[None]:
     for _ in move:
         if until():
             move.close()
-            break
+            return
         yield
-    yield from stand_still(body)
+
+
+def _walk_to_view(body: Body, stance: Stance, gaze_W: Vector3) -> Script[None]:
+    """Walk to a stance, and onto it only as exactly as a view needs."""
+    yield from walk_near(body, stance)
+    look_at(body, gaze_W)
+    for _ in step_to(body, stance):
+        if is_a_view(stance_of(body.X_WS), stance):
+            get_familiar(body)
+            return
+        yield
+
+
+def _or_seen(body: Body, survey: Survey, rows: Rows, until: Until) -> Until:
+    """Whether something is so, or all that a view was to show was seen in passing."""
+
+    def so() -> bool:
+        survey.take(body.world.looked)
+        return until() or not survey.unseen(rows)
+
+    return so
+
+
+def _standing(body: Body, eyes: Script[bool]) -> Script[bool]:
+    """Come to rest while the eyes do something, which need not wait for the feet."""
+    feet = stand_still(body)
+    while True:
+        try:
+            next(eyes)
+        except StopIteration as end:
+            yield from feet
+            return bool(end.value)
+        next(feet, OVER)
+        yield
+
+
+def is_a_view(here: Stance, planned: Stance) -> bool:
+    """Whether one who stands here sees what was planned to be seen from a stance."""
+    off_m, off_rad = miss(pose_of(here), pose_of(planned))
+    return off_m <= VIEW_M and off_rad <= VIEW_RAD
+
+
+def _gazes(body: Body, survey: Survey, plan: LookPlan, rows: Rows, until: Until) -> Script[bool]:
+    """Rest the eyes on each point of a view in turn; whether it came to be so."""
+    for p_W in plan.gazes_W:
+        if (yield from _gaze(body, survey, p_W, rows, until)):
+            return True
+    return until()
 
 
 def _gaze(body: Body, survey: Survey, p_W: Vector3, rows: Rows, until: Until) -> Script[bool]:

@@ -7,10 +7,11 @@ from msgspec.structs import replace
 
 from executive.behaviours.run_skill import DEFAULT_LIMIT_S
 from executive.skills.inspect import RECENT_S, InspectParams
+from executive.skills.motions.look_over import VIEW_M
 from executive.skills.search import SearchParams
 from executive.skills.skill import Lasting
 from robot.messages import Look, Walk
-from robot.planning.requests import LookPlan, LookRequest
+from robot.planning.requests import BasePathRequest, LookPlan, LookRequest
 from robot.se3 import SE3
 from tests.fakes.stage import Stage
 
@@ -33,6 +34,34 @@ def share(stage, place_id: str) -> float:
 def test_all_of_a_place_is_looked_at(stage):
     assert stage.run(InspectParams(place_ids=("counter",))).status == "succeeded"
     assert share(stage, "counter") == 1.0
+
+
+def planned_view(stage) -> tuple[float, float]:
+    (asked,) = (r for r in stage.planner.requests if isinstance(r, BasePathRequest))
+    return asked.goal[:2]
+
+
+def test_a_view_is_not_stepped_onto_to_the_centimetre(stage):
+    stage.puppet.X_WS = SE3((-1.0, -2.5, 0.0))
+    assert stage.run(InspectParams(place_ids=("counter",))).status == "succeeded"
+    off_m = math.dist(stage.puppet.X_WS.p[:2], planned_view(stage))
+    assert stage.puppet.description.walking.exact_steps.tolerance_m < off_m <= VIEW_M
+    assert stage.puppet.mode == "stand"
+
+
+def test_who_has_seen_all_of_a_place_in_passing_does_not_go_there(stage, monkeypatch):
+    puppet, tick = stage.puppet, stage.puppet.tick
+    puppet.X_WS = SE3((-1.0, -2.5, 0.0))
+
+    def passing() -> None:
+        tick()
+        if puppet.time_s > 4.0:
+            puppet._looked["counter"] = [puppet.time_s] * len(puppet._looked["counter"])
+
+    monkeypatch.setattr(puppet, "tick", passing)
+    assert stage.run(InspectParams(place_ids=("counter",))).status == "succeeded"
+    assert math.dist(puppet.X_WS.p[:2], planned_view(stage)) > 1.0
+    assert puppet.mode == "stand"
 
 
 def test_what_was_looked_over_lately_is_not_looked_at_again(stage):
