@@ -174,7 +174,7 @@ class Pick(ScriptedSkill[PickParams]):
         """
         body = self.body
         try:
-            yield from approach(body, plan, what=info.name)
+            yield from approach(body, plan, what=info.name, thing=info)
         except GaveUp as end:
             free = body.context.holdings.free_sides()
             others: list[Side] = [side for side in free if side != plan.side]
@@ -183,7 +183,7 @@ class Pick(ScriptedSkill[PickParams]):
                 raise
             plan = yield from self._plan(info, attempt=1, side=others[0])
             yield from stow_arms(body)
-            yield from approach(body, plan, what=info.name)
+            yield from approach(body, plan, what=info.name, thing=info)
         return plan
 
     def _plan(
@@ -284,7 +284,7 @@ class Pick(ScriptedSkill[PickParams]):
         plan = yield from self._plan(info, attempt=attempt)
         yield from stow_arms(self.body)
         self._X_WG_pre = self._stance = None
-        yield from approach(self.body, plan, what=info.name)
+        yield from approach(self.body, plan, what=info.name, thing=info)
         self._stance = plan
         return plan
 

@@ -13,6 +13,7 @@ from executive.skills.motions.asking_aside import ask_for_room
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import is_at_stance, miss, step_to
 from executive.skills.motions.gaze import look_at
+from executive.skills.motions.grasp import followed_stance
 from executive.skills.motions.obstructions import clearance_m
 from executive.skills.motions.personal_space import get_familiar, somebody_near
 from executive.skills.motions.planning import pose_of, stance_of
@@ -20,6 +21,7 @@ from executive.skills.motions.reach import move_arm
 from executive.skills.motions.script import OVER, Script, side_by_side
 from executive.skills.motions.walk import stand_still, walk_near
 from robot.failures import Failure
+from robot.messages import ObjectInfo
 from robot.planning.requests import BodyPosture, Joints, PickPlan, PlacePlan, Stance
 from robot.se3 import SE3
 
@@ -28,8 +30,13 @@ TURNED_RAD = 0.35
 may be anywhere around the body."""
 
 
-def approach(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[None]:
-    """Walk to the standoff, raise the hand, step in to the stance and take the posture."""
+def approach(
+    body: Body, plan: PickPlan | PlacePlan, *, what: str, thing: ObjectInfo | None = None
+) -> Script[None]:
+    """Walk to the standoff, raise the hand, step in to the stance and take the posture.
+
+    The stance for a thing that is to be taken follows where that is seen to be from near by.
+    """
     if not is_at_stance(body, plan.stance):
         X_WB = pose_of(plan.standoff) @ _X_SB(body)
         body.phase = f"walking to the {what}"
@@ -42,7 +49,7 @@ def approach(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[Non
             yield from _raise(body, plan)
     else:
         yield from _raise(body, plan)
-    yield from step_in(body, plan, what=what)
+    yield from step_in(body, plan, what=what, thing=thing)
 
 
 def _have_room(body: Body, stance: Stance) -> Script[None]:
@@ -119,12 +126,20 @@ def _has_room(body: Body, stance: Stance, *, room_m: float | None = None) -> boo
     return all(clearance_m(stance[:2], thing) >= room_m for thing in things)
 
 
-def step_in(body: Body, plan: PickPlan | PlacePlan, *, what: str) -> Script[None]:
+def step_in(
+    body: Body, plan: PickPlan | PlacePlan, *, what: str, thing: ObjectInfo | None = None
+) -> Script[None]:
     """Step to the stance, the hand being raised and the eyes on the goal, and take the posture."""
     look_at(body, plan.X_WG_grasp.p if isinstance(plan, PickPlan) else plan.X_WO.p)
-    if not is_at_stance(body, plan.stance):
+
+    def stance() -> Stance:
+        if thing is not None and isinstance(plan, PickPlan):
+            return followed_stance(body, plan, thing)
+        return plan.stance
+
+    if not is_at_stance(body, stance()):
         body.phase = f"stepping up to the {what}"
-        yield from step_to(body, plan.stance)
+        yield from step_to(body, stance)
     yield from take_posture(body, plan)
 
 

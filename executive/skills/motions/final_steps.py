@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.fingers import check_grips
@@ -25,25 +26,25 @@ SETTLE_S = 0.1
 
 def step_to(
     body: Body,
-    goal: Stance,
+    goal: Stance | Callable[[], Stance],
     *,
     position_tolerance_m: float | None = None,
     yaw_tolerance_rad: float | None = None,
 ) -> Script[None]:
     """Step straight to a stance of W and stand there, within tolerance, corrected at most twice.
 
-    The tolerances are those of the body unless given. Gives up with `walk_stalled` when it does
-    not get there.
+    The tolerances are those of the body unless given; a goal that is asked for may move by some
+    centimetres on the way. Gives up with `walk_stalled` when it does not get there.
     """
     exact = body.description.walking.exact_steps
+    goal_now = goal if callable(goal) else lambda: goal
     within_m = exact.tolerance_m if position_tolerance_m is None else position_tolerance_m
     within_rad = exact.tolerance_rad if yaw_tolerance_rad is None else yaw_tolerance_rad
-    X_WS_goal = pose_of(goal)
     off_m = off_rad = math.inf
     for _ in range(1 + CORRECTIONS):
-        yield from _step_once(body, X_WS_goal, tolerance_m=within_m)
+        yield from _step_once(body, goal_now, tolerance_m=within_m)
         yield from body.wait(SETTLE_S)
-        off_m, off_rad = miss(body.X_WS, X_WS_goal)
+        off_m, off_rad = miss(body.X_WS, pose_of(goal_now()))
         if off_m <= within_m and off_rad <= within_rad:
             get_familiar(body)
             return
@@ -52,7 +53,7 @@ def step_to(
         f"stopped {off_m * 100:.1f} cm and {math.degrees(off_rad):.1f} deg from where it should",
         off_m=round(off_m, 4),
         off_rad=round(off_rad, 4),
-        goal=_words(goal),
+        goal=_words(goal_now()),
         stance=_words(stance_of(body.X_WS)),
     )
 
@@ -70,8 +71,9 @@ def miss(X_WA: SE3, X_WB: SE3) -> tuple[float, float]:
     return math.dist(X_WA.p[:2], X_WB.p[:2]), off_rad
 
 
-def _step_once(body: Body, X_WS_goal: SE3, *, tolerance_m: float) -> Script[None]:
-    """One WalkTo, aimed again when localisation has moved the goal in the odometry frame."""
+def _step_once(body: Body, goal: Callable[[], Stance], *, tolerance_m: float) -> Script[None]:
+    """One WalkTo, aimed again when the goal has moved, in W or with localisation in N."""
+    X_WS_goal = pose_of(goal())
     far_m, far_rad = miss(body.X_WS, X_WS_goal)
     exact = body.description.walking.exact_steps
     patience_s = exact.patience_s_m * far_m + exact.patience_s_rad * far_rad
@@ -89,6 +91,7 @@ def _step_once(body: Body, X_WS_goal: SE3, *, tolerance_m: float) -> Script[None
         if body.now_s > end_s:
             yield from _stand(body)  # near enough or not: the caller looks
             return
+        X_WS_goal = pose_of(goal())
         moved_m, moved_rad = miss(aim, body.to_N(X_WS_goal))
         if body.now_s - aimed_s > REAIM_EVERY_S and (moved_m > MOVED_M or moved_rad > MOVED_RAD):
             aim, command_id = _aim(body, X_WS_goal, tolerance_m=tolerance_m)

@@ -7,14 +7,18 @@ import math
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.fingers import closed_on_air
 from executive.skills.motions.gaze import check_camera, fresh_track
+from executive.skills.motions.planning import stance_of
 from executive.skills.motions.script import give_up
 from executive.skills.motions.support import pose_on_support, tilt
 from robot.messages import ObjectInfo
-from robot.planning.requests import PickPlan
+from robot.planning.requests import PickPlan, Stance
 from robot.se3 import SE3
 
 FOLLOW_AT_MOST_M = 0.04
 """Of an object that moves while the hand moves in; beyond that the hand looks and reaches again."""
+NEARER_M, ASIDE_M, LEAST_M = 0.06, 0.03, 0.01
+"""Of a thing that is seen to be elsewhere, from near by, than it was planned for: so far a stance
+follows it back and aside; less is not worth a change."""
 FRESH_S = 0.5
 FALLEN_RAD = 0.3
 
@@ -64,6 +68,26 @@ def followed(body: Body, info: ObjectInfo, X_WO: SE3) -> SE3:
             moved_m=round(moved_m, 3),
         )
     return now
+
+
+def followed_stance(body: Body, plan: PickPlan, info: ObjectInfo) -> Stance:
+    """Where to stand for a grasp, by where the object is seen to be now.
+
+    From across a room it is seen centimetres off. A hand that is raised before it has no more room
+    than that, so whoever steps in to the stance as planned pushes the object over. Stands never
+    further in than planned: the edge of the furniture is where it was.
+    """
+    track = fresh_track(body, info.id, -math.inf)
+    if track is None or track.X_WO is None or has_fallen(plan, track.X_WO):
+        return plan.stance
+    x_m, y_m, yaw_rad = plan.stance
+    p, planned = pose_on_support(body, info.id, track.X_WO).p, _planned(plan).p
+    off = SE3.from_xy_yaw(0.0, 0.0, -yaw_rad).apply((p[0] - planned[0], p[1] - planned[1], 0.0))
+    if math.hypot(off[0], off[1]) < LEAST_M:
+        return plan.stance
+    ahead_m, aside_m = min(0.0, max(off[0], -NEARER_M)), min(max(off[1], -ASIDE_M), ASIDE_M)
+    moved = SE3.from_xy_yaw(x_m, y_m, yaw_rad) @ SE3((ahead_m, aside_m, 0.0))
+    return stance_of(moved)
 
 
 def last_seen(body: Body, info: ObjectInfo, X_WO: SE3) -> SE3:

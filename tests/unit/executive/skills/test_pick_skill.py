@@ -27,6 +27,8 @@ from robot.se3 import SE3
 from tests.fakes.stage import TABLE_M, Stage
 
 CUP = PickParams(object_id="cup")
+AHEAD_M, ASIDE_M = 0.33, 0.22
+"""Where `RulePlanner` has who takes a thing stand."""
 
 
 @pytest.fixture
@@ -88,6 +90,34 @@ def test_the_held_object_is_planned_with_and_kept_upright(stage):
     assert after
     assert all(request.keep_upright and request.held.id == "cup" for request in after)
     assert all("cup" in request.around.ignored for request in after)
+
+
+@pytest.mark.parametrize(
+    ("off_m", "follows_m"),
+    [
+        ((-0.03, 0.0), (-0.03, 0.0)),  # nearer than it was seen from afar: the hand pushed it over
+        ((-0.02, -0.02), (-0.02, -0.02)),
+        ((0.03, 0.0), (0.0, 0.0)),  # the table's edge is where it was
+        ((-0.005, 0.005), (0.0, 0.0)),
+        ((-0.2, 0.2), (-0.06, 0.03)),
+    ],
+)
+def test_who_steps_in_stands_by_where_the_thing_is_seen_from_near_by(stage, off_m, follows_m):
+    cup, tick = stage.puppet.things["cup"], stage.puppet.tick
+    x_m, y_m, z_m = cup.X_WO.p
+
+    def seen_better():
+        tick()
+        if stage.skill.body.phase.startswith("stepping up"):
+            cup.X_WO = SE3((x_m + off_m[0], y_m + off_m[1], z_m))
+
+    stage.puppet.tick = seen_better
+    stage.run(CUP, until_phase="leaning over")
+    (asked,) = (one for one in stage.planner.requests if isinstance(one, PickRequest))
+    X_WO = asked.around.objects[0].X_WO
+    at = stage.puppet.X_WS.p
+    stance = X_WO.p[0] - AHEAD_M, X_WO.p[1] + ASIDE_M
+    assert (at[0] - stance[0], at[1] - stance[1]) == pytest.approx(follows_m, abs=0.004)
 
 
 def test_the_grasp_follows_what_is_seen_not_what_was_planned(stage):
