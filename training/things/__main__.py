@@ -14,6 +14,7 @@ import math
 import os
 import sys
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -26,7 +27,7 @@ from robot.perception.things.crops import CHANNELS, NUMBERS, SIDE_PX
 from robot.perception.things.eyes import Eyes
 from robot.perception.things.inputs import CHANNELS as SEEN
 from robot.perception.things.networks import Finder, Namer
-from training.things import export, finding, graphs, judging, naming
+from training.things import export, finding, graphs, judging, naming, walking
 from training.things.frames import load
 from training.things.networks import Learnt
 from training.things.rendering import frames, render, render_homes
@@ -39,17 +40,23 @@ WALKS_FROM = 50_000
 MOST_WRONG = 0.005
 """Of the things that thresholds are chosen on, so many may get a wrong name."""
 SURE_VOTED = 0.999
-"""Probability from which a kind is believed that several looks agree on: single ones may be wrong
-in the same way, about a kind that was never learnt."""
+"""Probability from which a kind is believed that several looks agree on, where no walks are there
+to choose it on: single ones may be wrong in the same way, about a kind that was never learnt."""
 
 
 class Sets(NamedTuple):
-    """Files of pictures: to learn from, to choose thresholds on, and three to judge by."""
+    """Files of pictures: to learn from, to choose thresholds on, and five to judge by.
+
+    Those that are called odd are of scenes with many things of invented kinds.
+    """
 
     learn: list[Path]
     choose: list[Path]
+    choose_walks: list[Path]
     judge: list[Path]
+    odd: list[Path]
     walks: list[Path]
+    odd_walks: list[Path]
     homes: list[Path]
 
 
@@ -58,6 +65,12 @@ def main() -> int:
     asked = argparse.ArgumentParser(prog="python -m training.things", description=__doc__)
     asked.add_argument("--folder", type=Path, default=Path("build/things"))
     asked.add_argument("--scenes", type=int, default=150, help="to learn from, 4 pictures each")
+    asked.add_argument("--odd", type=int, default=0, help="besides, with things of invented kinds; "
+                       "with any, thresholds are chosen on such scenes, too, and it is judged by "
+                       "some")  # fmt: skip
+    asked.add_argument("--smooth", type=float, default=naming.USUAL.smooth)
+    asked.add_argument("--misfits", type=float, default=naming.USUAL.misfits,
+                       help="share of known things at sizes that they never have")  # fmt: skip
     asked.add_argument("--first", type=int, default=0, help="seed of the first of them")
     asked.add_argument("--namer-from", type=Path, help="a namer (ONNX) to go on from")
     asked.add_argument("--others", type=int, default=40, help="to choose on, and to judge by")
@@ -88,7 +101,7 @@ def main() -> int:
     if "namer" in only:
         _write_namer(namer, _named(sets, finder, options))
     if "choose" in only:
-        export.note(namer, _chosen(Eyes(Finder(finder), Namer(namer)), sets.choose))
+        export.note(namer, _chosen(Eyes(Finder(finder), Namer(namer)), sets))
     if "judge" in only:
         _judge(Eyes(Finder(finder), Namer(namer)), sets)
         sizes = [round(path.stat().st_size / 1e6, 2) for path in (finder, namer)]
@@ -98,16 +111,25 @@ def main() -> int:
 
 def _rendered(options: argparse.Namespace) -> Sets:
     """Every picture there has to be; those that are there stay."""
-    folder, jobs = options.folder, options.jobs
     only = set(options.only or STAGES)
     learns, judges = only & {"render", "finder", "namer"}, only & {"render", "choose", "judge"}
+    seen = partial(render, options.folder, jobs=options.jobs)
+    odd = partial(seen, odd=True)
+    others = options.others if judges else 0
+    walks = options.walks if judges else 0
+    others_odd, walks_odd = (others, walks) if options.odd else (0, 0)
     return Sets(
-        render(folder, "train", options.first, options.scenes if learns else 0, jobs=jobs),
-        render(folder, "choose", 0, options.others if judges else 0, jobs=jobs),
-        render(folder, "judge", 0, options.others if judges else 0, jobs=jobs),
-        render(folder, "judge", WALKS_FROM, options.walks if judges else 0, jobs=jobs, walks=True),
-        render_homes(folder, 0, options.homes if judges else 0, jobs=jobs),
-    )
+        learn=[*seen("train", options.first, options.scenes if learns else 0),
+               *odd("train", options.first, options.odd if learns else 0)],
+        choose=[*seen("choose", 0, others), *odd("choose", 0, others_odd)],
+        choose_walks=[*seen("choose", WALKS_FROM, walks_odd // 2, walks=True),
+                      *odd("choose", WALKS_FROM, walks_odd // 2, walks=True)],
+        judge=seen("judge", 0, others),
+        odd=odd("judge", 0, others_odd // 2),
+        walks=seen("judge", WALKS_FROM, walks, walks=True),
+        odd_walks=odd("judge", WALKS_FROM, walks_odd // 4, walks=True),
+        homes=render_homes(options.folder, 0, options.homes if judges else 0, jobs=options.jobs),
+    )  # fmt: skip
 
 
 def _named(sets: Sets, finder: Path, options: argparse.Namespace) -> Learnt:
@@ -118,6 +140,7 @@ def _named(sets: Sets, finder: Path, options: argparse.Namespace) -> Learnt:
     made = naming.learn(
         lessons, steps=options.namer_steps, batch=options.namer_batch, seed=options.seed,
         minutes=options.minutes, since=options.namer_from,
+        manner=naming.Manner(options.smooth, options.misfits),
     )  # fmt: skip
     return _learn("learn the namer", made, options.namer_steps)
 
@@ -126,7 +149,13 @@ def _judge(eyes: Eyes, sets: Sets) -> None:
     """Figures on pictures that nothing was learnt or chosen from."""
     f1_at = judging.best_f1(judging.looked(eyes, frames(sets.choose)), eyes)
     print(judging.report(judging.looked(eyes, frames(sets.judge)), eyes, f1_at))
-    print(judging.walked(eyes, (list(load(path)) for path in sets.walks)))
+    classes, sures = eyes.namer.classes, (eyes.namer.sure, eyes.namer.voted)
+    for files in (sets.walks, sets.odd_walks):
+        walks = walking.walks(eyes, (list(load(path)) for path in files))
+        print("\n".join(walking.told(walks, classes, sure) for sure in sures if walks))
+    if sets.odd:
+        print("with invented kinds:")
+        print(judging.report(judging.looked(eyes, frames(sets.odd)), eyes, f1_at))
     print("homes:")
     print(judging.report(judging.looked(eyes, frames(sets.homes)), eyes, f1_at))
 
@@ -149,11 +178,12 @@ def _learn(name: str, made: Iterator[tuple[float, Learnt]], steps: int) -> Learn
     return learnt
 
 
-def _chosen(eyes: Eyes, choose: list[Path]) -> dict[str, Any]:
+def _chosen(eyes: Eyes, sets: Sets) -> dict[str, Any]:
     """How sure it is, made to fit scenes that nothing was learnt from; and what is sure enough."""
-    plain = judging.looked(eyes, frames(choose))
+    plain = judging.looked(eyes, frames(sets.choose))
     seen = [one for one in plain if one.seen is not None and not one.is_double]
-    right = np.array([naming.CLASSES.index(one.kind) for one in seen])
+    kinds = [one.kind if one.kind in naming.CLASSES else naming.UNKNOWN for one in seen]
+    right = np.array([naming.CLASSES.index(kind) for kind in kinds])
     logs = np.log(np.maximum(np.array([one.seen.chances for one in seen if one.seen]), 1e-9))
     heats = np.linspace(0.6, 2.5, 39).tolist()
 
@@ -166,13 +196,16 @@ def _chosen(eyes: Eyes, choose: list[Path]) -> dict[str, Any]:
     sigmas = judging.mahalanobis(seen)
     spread = float(np.percentile(sigmas, 90.0)) / 2.5  # 90 % of a Gaussian in space are within
     eyes.namer.heat = heat
-    again = judging.looked(eyes, frames(choose))
+    again = judging.looked(eyes, frames(sets.choose))
     sure = judging.calibrated(
         [one for one in again if one.pixels >= naming.LEAST_PX or one.kind == "nothing"],
         eyes.namer.classes, most_wrong=MOST_WRONG,
     )  # fmt: skip
     print(f"heat {heat:.2f}, spread {spread:.2f}, sure {sure.kind:.3f}, {sure.family:.3f}")
-    return {"sure_kind": sure.kind, "sure_family": sure.family, "heat": heat, "spread": spread}
+    walks = walking.walks(eyes, (list(load(path)) for path in sets.choose_walks))
+    voted = walking.sure_voted(walks, eyes.namer.classes, sure, most_wrong=MOST_WRONG)
+    return {"sure_kind": sure.kind, "sure_family": sure.family, "heat": heat, "spread": spread,
+            "sure_voted_kind": voted if walks else SURE_VOTED}  # fmt: skip
 
 
 def _write_namer(path: Path, learnt: Learnt) -> None:

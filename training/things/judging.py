@@ -10,9 +10,9 @@ import numpy as np
 
 from robot.perception.things.eyes import Eyes, SeenThing
 from robot.perception.things.naming import Classes, Sure
-from robot.perception.things.votes import Votes
 from training.things.frames import Frame
-from training.things.naming import CLASSES, UPRIGHT_COS, matched
+from training.things.invented import INVENTED
+from training.things.naming import UPRIGHT_COS, matched
 from training.things.splits import STRANGERS, family
 
 SIZES_PX = (25, 40, 100, 300, 1_000_000)
@@ -22,6 +22,10 @@ COLOURS = {
     "worktop": "gray",
 }  # fmt: skip
 """Words of the catalogue that a picture does not tell apart from others."""
+
+
+KNOWN, PUT_TOGETHER, NEVER_LEARNT, MADE_UP = "known", "no kind", "kinds never learnt", "invented"
+UNKNOWN = (PUT_TOGETHER, NEVER_LEARNT, MADE_UP)
 
 
 class Look(NamedTuple):
@@ -105,7 +109,7 @@ def counts(some: list[Look], eyes: Eyes, sure: Sure) -> Counts:
             right += 1
         elif name.kind:
             wrong, false = wrong + (one.kind != "nothing"), false + 1
-        elif name.family and one.kind not in ("", "nothing") and family(one.kind) == name.family:
+        elif name.family and family(one.kind) == name.family:
             right_family += 1
         elif name.family:
             wrong_family += one.kind != "nothing"
@@ -137,7 +141,7 @@ def calibrated(some: list[Look], classes: Classes, *, most_wrong: float) -> Sure
     for one in some:
         if one.seen is None:
             continue
-        has_name = one.kind not in ("", "nothing")
+        has_name = one.kind != "nothing" and sort(one.kind) == KNOWN
         kind = classes.name(one.seen.chances, Sure(0.0, 2.0))
         kinds.append((kind.score, has_name and kind.kind == one.kind))
         of = classes.name(one.seen.chances, Sure(2.0, 0.0))
@@ -171,8 +175,8 @@ def report(some: list[Look], eyes: Eyes, f1_at: float) -> str:
         lines.append(_row(f"all from 100, up to {most_m} m", counts(_known(every), eyes, sure)))
         f1 = counts(every, eyes, Sure(f1_at, 2.0)), counts(every, eyes, sure)
         lines.append(f"F1 up to {most_m} m: {f1[0].f1:.3f}; as sure as it ships {f1[1].f1:.3f}")
-    for name, of in (("no kind", ("",)), ("kinds never learnt", STRANGERS)):
-        part = [one for one in within(some, FAR_M) if one.kind in of]
+    for name in UNKNOWN:
+        part = [one for one in within(some, FAR_M) if sort(one.kind) == name]
         at = counts(part, eyes, sure)
         text = f"{name}: {at.there}, found {at.found:.3f}, named a kind {at.wrong:.4f}, "
         lines.append(f"{text}a family, right {at.family:.3f}, wrong {at.wrong_family:.4f}")
@@ -187,9 +191,18 @@ def report(some: list[Look], eyes: Eyes, f1_at: float) -> str:
     return "\n".join(lines)
 
 
+def sort(kind: str) -> str:
+    """Of which sort a thing is: of a known kind, or why it should get no name."""
+    if kind.startswith(INVENTED):
+        return MADE_UP
+    if kind in STRANGERS:
+        return NEVER_LEARNT
+    return KNOWN if kind else PUT_TOGETHER
+
+
 def _known(some: list[Look]) -> list[Look]:
     """Things of kinds that were learnt."""
-    return [one for one in some if one.kind in CLASSES and one.kind not in ("", "nothing")]
+    return [one for one in some if one.kind != "nothing" and sort(one.kind) == KNOWN]
 
 
 def _row(name: str, at: Counts) -> str:
@@ -217,43 +230,3 @@ def mahalanobis(some: list[Look]) -> list[float]:
         for one in some
         if one.seen is not None and one.error_m is not None
     ]
-
-
-def walked(eyes: Eyes, walks: Iterable[list[Frame]]) -> str:
-    """Names and places of things looked at on the way to them, by votes."""
-    classes, sure = eyes.namer.classes, eyes.namer.voted
-    right = wrong = kin = total = strange = strange_named = found = 0
-    off: list[float] = []
-    for frames in walks:
-        if not frames:
-            continue
-        votes, target = Votes(), frames[0].target
-        track = None
-        for frame in frames:
-            seen = eyes.look(frame.image, frame.X_WC)
-            tracks = votes.add(seen)
-            for one, its in zip(seen, tracks, strict=True):
-                if matched(frame, one.pixels)[0] == target:
-                    track = its
-        kind = frames[-1].truth.kinds[target]
-        is_strange = kind not in CLASSES or not kind
-        total, strange = total + (not is_strange), strange + is_strange
-        if track is None:
-            continue
-        found += 1
-        name = track.name(classes, sure)
-        off.append(1e3 * float(np.linalg.norm(track.p_W - frames[-1].truth.p_W[target])))
-        if is_strange:
-            strange_named += bool(name.kind)
-        else:
-            right += name.kind == kind
-            wrong += bool(name.kind) and name.kind != kind
-            kin += not name.kind and name.family == family(kind)
-    if not total or not off:
-        return f"walks: {total} known things, {strange} unknown, found {found}"
-    median, high = np.percentile(off, (50, 95)).tolist()
-    return (
-        f"walks: {total} known, right {right / total:.3f}, wrong {wrong / total:.4f}, family only "
-        f"{kin / total:.3f}; {strange} unknown, named {strange_named / max(1, strange):.3f}; "
-        f"found {found}; place median {median:.1f} mm, 95 % {high:.1f} mm"
-    )

@@ -16,7 +16,7 @@ from robot.perception.things import crops
 from robot.perception.things.inputs import Floats, Sight, sight, tensor
 from robot.perception.things.instances import HALF, instances
 from robot.perception.things.networks import Finder
-from training.things import graphs, networks, resuming
+from training.things import graphs, misfits, networks, resuming
 from training.things.frames import Frame, load
 from training.things.networks import Learnt
 from training.things.splits import kinds
@@ -33,10 +33,26 @@ LEAST_PX = 25
 LEAST_SHARE, LEAST_OVERLAP, PURE = 0.4, 0.3, 0.65
 """Of the pixels of what was found a thing has at least so much, overlaps it so much (intersection
 over union), or it is none; and where it has less than PURE, it is several at once."""
-SMOOTH = 0.03
 UPRIGHT_COS = 0.7
 SOME = 512
 """Crops that say what a namer does that is gone on from."""
+
+
+class Manner(NamedTuple):
+    """How the namer learns.
+
+    Attributes:
+        smooth: share of a crop's weight that goes to all classes alike (label smoothing). It blurs
+            how sure the namer is, by which known things are told from those of no kind.
+        misfits: share of known things that are shown at sizes that they never have, as of no kind.
+    """
+
+    smooth: float
+    misfits: float
+
+
+USUAL = Manner(smooth=0.03, misfits=0.0)
+"""That of the namer that is shipped."""
 
 
 class Learned(NamedTuple):
@@ -162,14 +178,20 @@ def gathered(made: Iterable[Learned]) -> Lessons:
                    np.stack(rest).astype(np.float32))  # fmt: skip
 
 
-def loss(weights: Any, even: Any, batch: Any) -> Any:
+def without(given: Lessons, left_out: tuple[str, ...]) -> Lessons:
+    """Lessons without things of some kinds: who learns from them never sees one."""
+    kept = ~np.isin(given.names, [CLASSES.index(kind) for kind in left_out])
+    return Lessons(*(part[kept] for part in given))
+
+
+def loss(smooth: float, weights: Any, even: Any, batch: Any) -> Any:
     """Of names (cross-entropy), places (as unlikely as they are), sizes and which way up."""
     said, even = networks.run(
         GRAPH, weights, even,
         {graphs.IMAGE: batch["planes"], graphs.NUMBERS: batch["numbers"]}, learns=True,
     )  # fmt: skip
     count = len(CLASSES)
-    wanted = jax.nn.one_hot(batch["names"], count) * (1.0 - SMOOTH) + SMOOTH / count
+    wanted = jax.nn.one_hot(batch["names"], count) * (1.0 - smooth) + smooth / count
     named = -(wanted * jax.nn.log_softmax(said[:, :count])).sum(axis=-1).mean()
     rest, there = batch["rest"], batch["rest"][:, 7]
     spread = jnp.clip(said[:, count + 3 : count + 6], -6.0, 4.0)
@@ -190,10 +212,13 @@ def learn(
     seed: int,
     minutes: float = math.inf,
     since: Path | None = None,
+    manner: Manner = USUAL,
 ) -> Iterator[tuple[float, Learnt]]:
     """The loss of each step, and what was learnt until then; `since`: a namer to go on from."""
     rng = np.random.default_rng(seed)
-    state, one = networks.first(GRAPH, graphs.NAMER_IN, seed), networks.step(loss, varied)
+    state = networks.first(GRAPH, graphs.NAMER_IN, seed)
+    fits = jnp.asarray(misfits.fitting(CLASSES))
+    one = networks.step(partial(loss, manner.smooth), partial(varied, fits, manner.misfits))
     if since is not None:
         some = rng.choice(len(given.names), min(SOME, len(given.names)), replace=False)
         shown = {graphs.IMAGE: given.planes[some].astype(np.float32),
@@ -201,17 +226,24 @@ def learn(
         state = resuming.read(since, GRAPH, shown)
     held, order, at = jax.device_put(given), rng.permutation(len(given.names)), 0
     most = MOST_RATE if since is None else AGAIN_RATE
+    before: Any = None
     for number, rate in enumerate(networks.rates(steps, most, minutes)):
         if at + batch > len(order):
             order, at = rng.permutation(len(given.names)), 0
         chosen, at = order[at : at + batch], at + batch
         state, value = one(state, rate, held, chosen, jax.random.key(number))
-        yield float(value), state
+        # Of the step before: to ask for this one's would have the accelerator wait.
+        yield float(value if before is None else before), state
+        before = value
 
 
-def varied(given: Lessons, chosen: Any, key: Any) -> dict[str, Any]:
-    """Some of them, mirrored or not, in other light, with other noise, a pixel aside."""
-    count, keys = len(chosen), jax.random.split(key, 6)
+def varied(fits: Any, share: float, given: Lessons, chosen: Any, key: Any) -> dict[str, Any]:
+    """Some of them, mirrored or not, in other light, with other noise, a pixel aside.
+
+    A share of what is of a kind is shown at a size that it never has, and is of none then
+    (`misfits`).
+    """
+    count, keys = len(chosen), jax.random.split(key, 7)
     planes, rest = given.planes[chosen].astype(jnp.float32), given.rest[chosen]
     turned = jax.random.bernoulli(keys[0], 0.5, (count,))
     planes = jnp.where(turned[:, None, None, None], planes[:, :, ::-1], planes)
@@ -225,4 +257,7 @@ def varied(given: Lessons, chosen: Any, key: Any) -> dict[str, Any]:
     planes = jnp.roll(planes, (aside[0], aside[1]), axis=(1, 2))
     numbers = given.numbers[chosen]
     numbers += 0.02 * jax.random.normal(keys[5], numbers.shape)
-    return {"planes": planes, "numbers": numbers, "names": given.names[chosen], "rest": rest}
+    log = misfits.drawn(fits, given.names[chosen], share, keys[6])
+    batch = misfits.resized({"planes": planes, "numbers": numbers, "rest": rest}, log)
+    names = jnp.where(log != 0.0, CLASSES.index(UNKNOWN), given.names[chosen])
+    return {**batch, "names": names}

@@ -21,6 +21,8 @@ SIDE_PX = 48
 CHANNELS, NUMBERS = 7, 9
 UNIT_M = 0.1
 """Of depths and heights in a crop."""
+DEPTHS, HEIGHTS = (-3.0, 3.0), (-2.0, 4.0)
+"""Limits of both there, in that unit."""
 WIDER = 1.3
 LEAST_WINDOW_M, LEAST_WINDOW_PX = 0.06, 12
 NEAR_M = 0.35
@@ -114,8 +116,8 @@ def _planes(
     planes[..., 3] = pixels[grid] & inside
     depths = seen.depth_m[grid]
     there = inside & (depths > 0.0)
-    planes[..., 4] = np.where(there, np.clip((depths - depth_m) / UNIT_M, -3.0, 3.0), 0.0)
-    high = np.clip((seen.height_m[grid] - foot_m) / UNIT_M, -2.0, 4.0)
+    planes[..., 4] = np.where(there, np.clip((depths - depth_m) / UNIT_M, *DEPTHS), 0.0)
+    high = np.clip((seen.height_m[grid] - foot_m) / UNIT_M, *HEIGHTS)
     planes[..., 5] = np.where(there, high, 0.0)
     planes[..., 6] = there
     return planes
