@@ -7,6 +7,7 @@ one. What fits badly in one respect may be made up for in another, but not witho
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from robot.messages import ObjectInfo
 from robot.perception.sight.tracking import Seen
@@ -40,18 +41,32 @@ HARDLY = 0.1
 """So little of what was seen of a thing had the colour that was told, or one taken for it."""
 
 
-def likeness(track: Seen, info: ObjectInfo, plural: str, classes: Classes, sure: Sure) -> float:
+class Knowledge(NamedTuple):
+    """What a namer knows.
+
+    Attributes:
+        classes: that it tells apart.
+        sure: from which probability it is believed.
+        voted: the same of a thing that may be of a kind that it never learnt: then looks that
+            agree may all be wrong in the same way.
+    """
+
+    classes: Classes
+    sure: Sure
+    voted: Sure
+
+
+def likeness(track: Seen, info: ObjectInfo, plural: str, namer: Knowledge) -> float:
     """How well a thing that is seen fits one that was told.
 
     Args:
         track: what is seen.
         info: what was told: its category and its colour; nothing else of it is looked at.
         plural: of the category.
-        classes: that the namer tells apart.
-        sure: from which probability it is believed.
+        namer: what it knows.
     """
     return (
-        _kind(track, info.category, plural, classes, sure)
+        _kind(track, info.category, plural, namer)
         + _colour(track, info.color)
         + _size(track, info.category)
     )
@@ -71,12 +86,13 @@ def kinds_of(category: str, plural: str, classes: Classes) -> frozenset[int]:
     )
 
 
-def _kind(track: Seen, category: str, plural: str, classes: Classes, sure: Sure) -> float:
+def _kind(track: Seen, category: str, plural: str, namer: Knowledge) -> float:
+    classes = namer.classes
     mine = kinds_of(category, plural, classes)
     chances = track.chances
     plain = float(chances[classes.names.index(UNKNOWN)])
     fits = sum(float(chances[k]) for k in mine) + PLAIN * plain
-    name = classes.name(chances, sure)
+    name = classes.name(chances, namer.sure if mine else namer.voted)
     is_told = name.kind or name.family
     if is_told and track.looks >= LOOKS_TO_BE_SURE:
         known = classes.names.index(name.kind) if name.kind else -1

@@ -17,9 +17,8 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from robot.messages import ObjectInfo
-from robot.perception.sight.likeness import likeness, other_colour
+from robot.perception.sight.likeness import Knowledge, likeness, other_colour
 from robot.perception.sight.tracking import Seen
-from robot.perception.things.naming import Classes, Sure
 
 ENOUGH, ENOUGH_AT_ONCE = 0.9, 2.2
 """Likeness from which on a thing is believed to be that, after two looks and after one."""
@@ -40,14 +39,9 @@ class Recogniser:
             name now, or another colour; with what it is, in a word or two.
     """
 
-    def __init__(self, classes: Classes, sure: Sure) -> None:
-        """Know no thing.
-
-        Args:
-            classes: that the namer tells apart.
-            sure: from which probability it is believed.
-        """
-        self._classes, self._sure = classes, sure
+    def __init__(self, namer: Knowledge) -> None:
+        """Know no thing; the namer says what it takes them for."""
+        self._namer = namer
         self._told: tuple[ObjectInfo, ...] = ()
         self._plurals: Mapping[str, str] = {}
         self._number: dict[str, int] = {}
@@ -114,6 +108,6 @@ class Recogniser:
         plural = self._plurals.get(info.category, f"{info.category}s")
         if other_colour(track, info.color):
             return NO_WAY
-        fit = likeness(track, info, plural, self._classes, self._sure)
+        fit = likeness(track, info, plural, self._namer)
         is_first = track.looks < 2 and self._number.get(info.id) != track.number
         return fit - (ENOUGH_AT_ONCE - ENOUGH) if is_first else fit

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot.messages import ObjectInfo, Place, RgbdImage, Shape, Sighting, Sightings, WorldMap
+from robot.perception.sight.likeness import Knowledge
 from robot.perception.sight.measuring import Measured, measured
 from robot.perception.sight.recognising import Recogniser
 from robot.perception.sight.tracking import Seen, Tracks
@@ -58,7 +59,7 @@ class Seer:
         """Load the networks. Raises ConfigError if onnxruntime is missing (extra: vision)."""
         self._eyes = eyes or Eyes()
         namer = self._eyes.namer
-        self._recogniser = Recogniser(namer.classes, namer.sure)
+        self._recogniser = Recogniser(Knowledge(namer.classes, namer.sure, namer.voted))
         self._tracks = Tracks()
         self._places: tuple[Place, ...] = ()
         self._told: dict[str, ObjectInfo] = {}

@@ -43,7 +43,8 @@ class Namer:
         classes: what it tells apart.
         sure: what it was found to be right about, in one look.
         voted: the same over several looks (`votes`), which make it surer of itself, also where it
-            is wrong: of a kind that it never learnt.
+            is wrong: of a kind that it never learnt. A family, which is at least as likely as each
+            of its kinds, has to be as sure.
         heat: by how much it is too sure of itself.
         spread: by how much its errors of places are larger than it says.
     """
@@ -56,7 +57,7 @@ class Namer:
         self.classes = Classes(names, families)
         self.sure = Sure(float(notes["sure_kind"]), float(notes["sure_family"]))
         voted_kind = float(notes.get("sure_voted_kind", notes["sure_kind"]))
-        self.voted = self.sure._replace(kind=voted_kind)
+        self.voted = Sure(voted_kind, max(voted_kind, self.sure.family))
         self.heat, self.spread = float(notes["heat"]), float(notes["spread"])
 
     def __call__(self, planes: Floats, numbers: Floats) -> Floats:

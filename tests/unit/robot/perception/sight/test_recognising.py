@@ -3,8 +3,10 @@
 import pytest
 
 from robot.messages import ObjectInfo, Shape
+from robot.perception.sight.likeness import Knowledge
 from robot.perception.sight.recognising import Recogniser
 from robot.perception.sight.tracking import Tracks
+from robot.perception.things.naming import Sure
 from tests.fakes.things_in_view import CLASSES, SURE, measured
 
 
@@ -13,13 +15,15 @@ def told(id: str, category: str = "cup", color: str = "red") -> ObjectInfo:
     return ObjectInfo(id=id, name=id, category=category, color=color, shape=shape, mass_kg=0.2)
 
 
+VOTED = Sure(0.9995, 0.9995)
+NAMER = Knowledge(CLASSES, SURE, VOTED)
 RED, BLUE = told("red_cup"), told("blue_cup", color="blue")
 HERE, THERE = (1.0, 0.0, 0.76), (1.4, 0.3, 0.76)
 
 
 def names(things: list, infos: tuple[ObjectInfo, ...], *, looks: int = 3) -> dict[str, tuple]:
     """Where what has a name is, after some looks at things that stay where they are."""
-    recogniser, tracks = Recogniser(CLASSES, SURE), Tracks()
+    recogniser, tracks = Recogniser(NAMER), Tracks()
     recogniser.tell(infos, {"cup": "cups", "box": "boxes"})
     found = {}
     for k in range(looks):
@@ -55,6 +59,16 @@ def test_a_thing_that_is_taken_for_another_kind_without_certainty_keeps_its_name
     assert names([measured(HERE, kind="apple", certain=0.5)], (RED,)) == {"red_cup": HERE}
 
 
+@pytest.mark.parametrize(("certain", "found"), [(0.98, True), (0.9999, False)])
+def test_a_thing_of_a_kind_that_was_never_learnt_may_be_taken_for_another(certain, found):
+    """A coffee tin was taken for a tea box in eight looks of eight: it was told all the same."""
+    tin = told("coffee_tin", "coffee tin")
+    assert SURE.kind < 0.98 < VOTED.kind
+    assert bool(names([measured(HERE, kind="apple", certain=certain)], (tin,))) is found
+    cup = names([measured(HERE, kind="apple", certain=certain)], (RED,), looks=6)
+    assert cup == {}  # a kind that it knows well
+
+
 def test_of_two_that_fit_as_well_neither_is_it():
     assert names([measured(HERE), measured(THERE)], (RED,), looks=6) == {}
 
@@ -80,7 +94,7 @@ def test_without_a_colour_the_kind_has_to_say_it():
 
 
 def test_a_name_stays_with_what_is_carried_elsewhere_when_another_like_it_comes():
-    recogniser, tracks = Recogniser(CLASSES, SURE), Tracks()
+    recogniser, tracks = Recogniser(NAMER), Tracks()
     recogniser.tell((RED,), {})
     for k in range(3):
         tracks.add([measured(HERE)], 0.2 * k)
@@ -100,7 +114,7 @@ def test_sizes_and_masses_that_were_told_change_nothing():
 
 
 def test_a_name_that_loses_its_thing_to_another_was_a_mistake():
-    recogniser, tracks = Recogniser(CLASSES, SURE), Tracks()
+    recogniser, tracks = Recogniser(NAMER), Tracks()
     recogniser.tell((RED, BLUE), {"cup": "cups"})
     said = []
     for k in range(16):
@@ -113,7 +127,7 @@ def test_a_name_that_loses_its_thing_to_another_was_a_mistake():
 
 
 def test_a_name_that_nobody_else_has_is_no_mistake():
-    recogniser, tracks = Recogniser(CLASSES, SURE), Tracks()
+    recogniser, tracks = Recogniser(NAMER), Tracks()
     recogniser.tell((RED, BLUE), {"cup": "cups"})
     for k in range(3):
         tracks.add([measured(HERE)], 0.2 * k)
@@ -125,7 +139,7 @@ def test_a_name_that_nobody_else_has_is_no_mistake():
 
 
 def test_a_name_is_taken_from_what_plainly_has_another_colour() -> None:
-    recogniser, tracks = Recogniser(CLASSES, SURE), Tracks()
+    recogniser, tracks = Recogniser(NAMER), Tracks()
     recogniser.tell((RED,), {"cup": "cups"})
     said = []
     for k in range(40):

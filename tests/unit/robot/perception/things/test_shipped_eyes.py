@@ -51,7 +51,7 @@ def test_a_name_is_hardly_ever_wrong(eyes: Eyes, looked: list[Look]) -> None:
 def test_looks_that_agree_have_to_be_surer_than_one(eyes: Eyes) -> None:
     """A coffee tin, which it never learnt, was taken for a tea box in eight looks of eight."""
     assert eyes.namer.voted.kind > eyes.namer.sure.kind
-    assert eyes.namer.voted.family == eyes.namer.sure.family
+    assert eyes.namer.voted.family >= eyes.namer.voted.kind
 
 
 def test_a_picture_twice_is_seen_twice_the_same(eyes: Eyes, frames: list[Frame]) -> None:
