@@ -26,19 +26,21 @@ from robot.perception.things import networks as shipped
 from robot.perception.things.crops import CHANNELS, NUMBERS, SIDE_PX
 from robot.perception.things.eyes import Eyes
 from robot.perception.things.inputs import CHANNELS as SEEN
+from robot.perception.things.naming import Sure
 from robot.perception.things.networks import Finder, Namer
 from training.things import export, finding, graphs, judging, naming, walking
 from training.things.frames import load
 from training.things.networks import Learnt
 from training.things.rendering import frames, render, render_homes
-from training.things.splits import family
+from training.things.splits import family, sizes_of_kinds
 from training.things.working import bar
 
 STAGES = ("render", "finder", "namer", "choose", "judge")
 WALKS_FROM = 50_000
 """The seed of the first walk: none of these scenes is in the other pictures."""
-MOST_WRONG = 0.005
-"""Of the things that thresholds are chosen on, so many may get a wrong name."""
+MOST_WRONG, MOST_NAMED = 0.005, 0.05
+"""Of the things that thresholds are chosen on, so many may get a wrong name; and of those that
+should get none in scenes with many of them."""
 SURE_VOTED = 0.999
 """Probability from which a kind is believed that several looks agree on, where no walks are there
 to choose it on: single ones may be wrong in the same way, about a kind that was never learnt."""
@@ -52,6 +54,7 @@ class Sets(NamedTuple):
 
     learn: list[Path]
     choose: list[Path]
+    choose_odd: list[Path]
     choose_walks: list[Path]
     judge: list[Path]
     odd: list[Path]
@@ -121,7 +124,8 @@ def _rendered(options: argparse.Namespace) -> Sets:
     return Sets(
         learn=[*seen("train", options.first, options.scenes if learns else 0),
                *odd("train", options.first, options.odd if learns else 0)],
-        choose=[*seen("choose", 0, others), *odd("choose", 0, others_odd)],
+        choose=seen("choose", 0, others),
+        choose_odd=odd("choose", 0, others_odd),
         choose_walks=[*seen("choose", WALKS_FROM, walks_odd // 2, walks=True),
                       *odd("choose", WALKS_FROM, walks_odd // 2, walks=True)],
         judge=seen("judge", 0, others),
@@ -182,8 +186,7 @@ def _chosen(eyes: Eyes, sets: Sets) -> dict[str, Any]:
     """How sure it is, made to fit scenes that nothing was learnt from; and what is sure enough."""
     plain = judging.looked(eyes, frames(sets.choose))
     seen = [one for one in plain if one.seen is not None and not one.is_double]
-    kinds = [one.kind if one.kind in naming.CLASSES else naming.UNKNOWN for one in seen]
-    right = np.array([naming.CLASSES.index(kind) for kind in kinds])
+    right = np.array([naming.CLASSES.index(one.kind) for one in seen])
     logs = np.log(np.maximum(np.array([one.seen.chances for one in seen if one.seen]), 1e-9))
     heats = np.linspace(0.6, 2.5, 39).tolist()
 
@@ -196,11 +199,7 @@ def _chosen(eyes: Eyes, sets: Sets) -> dict[str, Any]:
     sigmas = judging.mahalanobis(seen)
     spread = float(np.percentile(sigmas, 90.0)) / 2.5  # 90 % of a Gaussian in space are within
     eyes.namer.heat = heat
-    again = judging.looked(eyes, frames(sets.choose))
-    sure = judging.calibrated(
-        [one for one in again if one.pixels >= naming.LEAST_PX or one.kind == "nothing"],
-        eyes.namer.classes, most_wrong=MOST_WRONG,
-    )  # fmt: skip
+    sure = _sure(eyes, sets)
     print(f"heat {heat:.2f}, spread {spread:.2f}, sure {sure.kind:.3f}, {sure.family:.3f}")
     walks = walking.walks(eyes, (list(load(path)) for path in sets.choose_walks))
     voted = walking.sure_voted(walks, eyes.namer.classes, sure, most_wrong=MOST_WRONG)
@@ -208,12 +207,23 @@ def _chosen(eyes: Eyes, sets: Sets) -> dict[str, Any]:
             "sure_voted_kind": voted if walks else SURE_VOTED}  # fmt: skip
 
 
+def _sure(eyes: Eyes, sets: Sets) -> Sure:
+    """What is sure enough for few wrong names, and few names of things of no kind."""
+    usual, odd = (judging.looked(eyes, frames(files)) for files in (sets.choose, sets.choose_odd))
+    some = [one for one in usual if one.pixels >= naming.LEAST_PX or one.kind == "nothing"]
+    sure = judging.calibrated(some, eyes.namer.classes, most_wrong=MOST_WRONG)
+    strange = [one for one in odd if judging.sort(one.kind) in judging.UNKNOWN]
+    strange = [one for one in judging.within(strange, judging.FAR_M) if one.kind != "nothing"]
+    least = judging.calibrated(strange, eyes.namer.classes, most_wrong=MOST_NAMED)
+    return Sure(max(sure.kind, least.kind), max(sure.family, least.family)) if strange else sure
+
+
 def _write_namer(path: Path, learnt: Learnt) -> None:
     families = [family(one) if one not in (naming.UNKNOWN, naming.NOTHING) else one
                 for one in naming.CLASSES]  # fmt: skip
     notes = {"classes": ",".join(naming.CLASSES), "families": ",".join(families),
              "sure_kind": "0.9", "sure_family": "0.9", "heat": "1", "spread": "1",
-             "sure_voted_kind": str(SURE_VOTED)}  # fmt: skip
+             "sure_voted_kind": str(SURE_VOTED), "sizes": sizes_of_kinds()}  # fmt: skip
     shapes = {graphs.IMAGE: (SIDE_PX, SIDE_PX, CHANNELS), graphs.NUMBERS: (NUMBERS,)}
     export.write(path, naming.GRAPH, learnt, shapes, notes)
 

@@ -104,7 +104,7 @@ def counts(some: list[Look], eyes: Eyes, sure: Sure) -> Counts:
     for one in some:
         if one.seen is None:
             continue
-        name = eyes.namer.classes.name(one.seen.chances, sure)
+        name = eyes.namer.classes.name(one.seen.chances, sure, one.seen.size_m)
         if name.kind and name.kind == one.kind:
             right += 1
         elif name.kind:
@@ -142,9 +142,9 @@ def calibrated(some: list[Look], classes: Classes, *, most_wrong: float) -> Sure
         if one.seen is None:
             continue
         has_name = one.kind != "nothing" and sort(one.kind) == KNOWN
-        kind = classes.name(one.seen.chances, Sure(0.0, 2.0))
+        kind = classes.name(one.seen.chances, Sure(0.0, 2.0), one.seen.size_m)
         kinds.append((kind.score, has_name and kind.kind == one.kind))
-        of = classes.name(one.seen.chances, Sure(2.0, 0.0))
+        of = classes.name(one.seen.chances, Sure(2.0, 0.0), one.seen.size_m)
         kin.append((of.score, has_name and of.family == family(one.kind)))
     most = most_wrong * max(1, len(some))
     return Sure(_least(kinds, most), _least(kin, most))

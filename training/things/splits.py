@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
+from robot.perception.things import usual_sizes
+from robot.se3 import Vector3
 from sim.things import catalogue
+from sim.things.making import made
 
 Split = Literal["train", "choose", "judge"]
 
@@ -49,6 +52,15 @@ def kinds(split: Split) -> tuple[str, ...]:
     """Kinds of things that are in the pictures of a split."""
     every = tuple(sorted(catalogue.kinds()))
     return every if split == "judge" else tuple(k for k in every if k not in STRANGERS)
+
+
+def sizes_of_kinds() -> str:
+    """How large things of the kinds are that are learnt, as a network's notes tell it."""
+    sizes: dict[str, tuple[Vector3, Vector3]] = {}
+    for kind in kinds("train"):
+        (x, y, z), vary = made(kind).size_m, catalogue.kind(kind).vary
+        sizes[kind] = ((max(x, y), min(x, y), z), (vary.across, vary.across, vary.up))
+    return usual_sizes.written(sizes)
 
 
 def family(kind: str) -> str:

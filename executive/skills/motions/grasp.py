@@ -82,10 +82,11 @@ def followed_stance(body: Body, plan: PickPlan, info: ObjectInfo) -> Stance:
         return plan.stance
     x_m, y_m, yaw_rad = plan.stance
     p, planned = pose_on_support(body, info.id, track.X_WO).p, _planned(plan).p
-    off = SE3.from_xy_yaw(0.0, 0.0, -yaw_rad).apply((p[0] - planned[0], p[1] - planned[1], 0.0))
-    if math.hypot(off[0], off[1]) < LEAST_M:
+    off = SE3.from_xy_yaw(0.0, 0.0, -yaw_rad) @ SE3((p[0] - planned[0], p[1] - planned[1], 0.0))
+    if math.hypot(off.p[0], off.p[1]) < LEAST_M:
         return plan.stance
-    ahead_m, aside_m = min(0.0, max(off[0], -NEARER_M)), min(max(off[1], -ASIDE_M), ASIDE_M)
+    ahead_m = min(0.0, max(off.p[0], -NEARER_M))
+    aside_m = min(max(off.p[1], -ASIDE_M), ASIDE_M)
     moved = SE3.from_xy_yaw(x_m, y_m, yaw_rad) @ SE3((ahead_m, aside_m, 0.0))
     return stance_of(moved)
 

@@ -92,7 +92,7 @@ def _kind(track: Seen, category: str, plural: str, namer: Knowledge) -> float:
     chances = track.chances
     plain = float(chances[classes.names.index(UNKNOWN)])
     fits = sum(float(chances[k]) for k in mine) + PLAIN * plain
-    name = classes.name(chances, namer.sure if mine else namer.voted)
+    name = classes.name(chances, namer.sure if mine else namer.voted, track.looks_m)
     is_told = name.kind or name.family
     if is_told and track.looks >= LOOKS_TO_BE_SURE:
         known = classes.names.index(name.kind) if name.kind else -1

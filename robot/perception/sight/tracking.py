@@ -12,7 +12,7 @@ from robot.perception.sight.measuring import Measured
 from robot.perception.things.eyes import SeenThing
 from robot.perception.things.inputs import Sight
 from robot.perception.things.votes import NEAR_M, NEAR_SIGMAS, SHARED
-from robot.se3 import Array
+from robot.se3 import Array, Vector3
 
 WANDER_M = 0.002
 """How far a thing, or the robot's idea of where it is itself, may have moved between two looks."""
@@ -60,6 +60,7 @@ class Seen:
     misses: int = 0
     colour_looks: int = 0
     _logs: Array = field(default_factory=lambda: np.zeros(0))
+    _sizes: Array = field(default_factory=lambda: np.zeros(3))
     _weight: float = 0.0
     _count: float = 0.0
     _coloured: float = 0.0
@@ -91,6 +92,7 @@ class Seen:
         weight = _weight(seen) * (1.0 if found.is_whole else 0.3)
         logs = np.log(np.maximum(seen.chances, 1e-4))
         self._logs = weight * logs if not self.looks else FADE * self._logs + weight * logs
+        self._sizes = FADE * self._sizes + weight * np.log(np.array(seen.size_m))
         self._weight = FADE * self._weight + weight
         self._count = FADE * self._count + 1.0
         self._vote_colours(seen, weight)
@@ -113,6 +115,12 @@ class Seen:
         power = self._count / (SHARED * self._count + 1.0 - SHARED)
         raised = np.exp((mean - mean.max()) * power)
         return raised / raised.sum()
+
+    @property
+    def looks_m(self) -> Vector3:
+        """Longer side, shorter side and height as the namer tells them, over all looks."""
+        x, y, z = np.exp(self._sizes / max(self._weight, 1e-9)).tolist()
+        return x, y, z
 
     def colour_share(self, word: str) -> float:
         """How much of what was seen of it has a colour, 0 to 1."""

@@ -29,7 +29,7 @@ class SeenThing(NamedTuple):
 
     Attributes:
         name: what it is taken for.
-        chances: probabilities of the namer's classes, shape (n,).
+        chances: probabilities of the namer's classes by its looks alone, shape (n,).
         colours: one or two words.
         p_W: the middle of it [m], shape (3,).
         covariance_W: of that [m²], shape (3, 3).
@@ -125,14 +125,15 @@ class Eyes:
         place = row[count : count + 3].astype(np.float64)
         spread = np.exp(np.clip(row[count + 3 : count + 6].astype(np.float64), -6.0, 4.0))
         variance = spread * (PLACE_M * namer.spread) ** 2
-        size = np.maximum(SIZE_M * row[count + 6 : count + 9], LEAST_SIZE_M)
+        sizes = np.maximum(SIZE_M * row[count + 6 : count + 9], LEAST_SIZE_M)
+        size_m = (float(sizes[0]), float(sizes[1]), float(sizes[2]))
         return SeenThing(
-            name=namer.classes.name(likely, sure),
+            name=namer.classes.name(likely, sure, size_m),
             chances=likely,
             colours=colours.words(seen.colours, one.pixels, gain),
             p_W=cut.p_W + cut.R_WS @ (PLACE_M * place),
             covariance_W=cut.R_WS @ np.diag(variance) @ cut.R_WS.T,
-            size_m=(float(size[0]), float(size[1]), float(size[2])),
+            size_m=size_m,
             upright=float(1.0 / (1.0 + np.exp(-float(row[count + 9])))),
             pixels=one.pixels,
             range_m=cut.range_m,

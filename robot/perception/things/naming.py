@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from robot.se3 import Array
+from robot.perception.things.usual_sizes import UsualSizes
+from robot.se3 import Array, Vector3
 
 UNKNOWN, NOTHING = "", "nothing"
 
@@ -34,22 +35,26 @@ class Name(NamedTuple):
 
 
 class Classes(NamedTuple):
-    """What the namer tells apart, and which family each kind is of."""
+    """What the namer tells apart, which family each kind is of, and how large things of it are."""
 
     names: tuple[str, ...]
     families: tuple[str, ...]
+    sizes: UsualSizes | None = None
 
     def nothing(self, chances: Array) -> float:
         """How likely it is that there is no thing."""
         return float(chances[self.names.index(NOTHING)])
 
-    def name(self, chances: Array, sure: Sure) -> Name:
+    def name(self, chances: Array, sure: Sure, size_m: Vector3 | None = None) -> Name:
         """The name of a thing, as narrow as is certain.
 
         Args:
-            chances: probabilities of the classes, shape (n,).
+            chances: probabilities of the classes by looks, shape (n,).
             sure: what is certain.
+            size_m: of the thing, longer side, shorter side, height; None: it may be of any size.
         """
+        if self.sizes is not None and size_m is not None:
+            chances = self.sizes.weighed(chances, size_m, self.names.index(UNKNOWN))
         kinds = [k for k, name in enumerate(self.names) if name not in (UNKNOWN, NOTHING)]
         best = max(kinds, key=lambda k: float(chances[k]))
         if chances[best] >= sure.kind:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from robot.perception.detector.network import session
+from robot.perception.things import usual_sizes
 from robot.perception.things.inputs import Floats
 from robot.perception.things.instances import HALF
 from robot.perception.things.naming import Classes, Sure
@@ -54,7 +55,8 @@ class Namer:
         self._session: Any = session(path)
         notes: dict[str, str] = self._session.get_modelmeta().custom_metadata_map
         names, families = (tuple(notes[one].split(",")) for one in ("classes", "families"))
-        self.classes = Classes(names, families)
+        sizes = usual_sizes.read(notes["sizes"], names) if "sizes" in notes else None
+        self.classes = Classes(names, families, sizes)
         self.sure = Sure(float(notes["sure_kind"]), float(notes["sure_family"]))
         voted_kind = float(notes.get("sure_voted_kind", notes["sure_kind"]))
         self.voted = Sure(voted_kind, max(voted_kind, self.sure.family))

@@ -8,7 +8,7 @@ import numpy as np
 
 from robot.perception.things.eyes import SeenThing
 from robot.perception.things.naming import Classes, Name, Sure
-from robot.se3 import Array
+from robot.se3 import Array, Vector3
 
 NEAR_M, NEAR_SIGMAS = 0.06, 3.0
 """What is seen so near to where a thing was is that thing."""
@@ -34,6 +34,8 @@ class Sighted:
     last: SeenThing
     looks: int = 0
     _logs: Array = field(default_factory=lambda: np.zeros(0))
+    _sizes: Array = field(default_factory=lambda: np.zeros(3))
+    _pixels: float = 0.0
     _information: Array = field(default_factory=lambda: np.zeros((3, 3)))
     _weighted: Array = field(default_factory=lambda: np.zeros(3))
     _floor: Array = field(default_factory=lambda: np.zeros((3, 3)))
@@ -42,6 +44,9 @@ class Sighted:
         """One more look."""
         logs = np.log(np.maximum(seen.chances, 1e-6))
         self._logs = logs if not self.looks else self._logs + logs
+        pixels = float(seen.pixels.sum())
+        self._sizes = self._sizes + pixels * np.log(np.array(seen.size_m))
+        self._pixels += pixels
         precision = np.linalg.inv(seen.covariance_W)
         self._information = self._information + precision
         self._weighted = self._weighted + precision @ seen.p_W
@@ -54,6 +59,12 @@ class Sighted:
         self.covariance_W = pooled + SHARED * (1.0 - 1.0 / self.looks) * self._floor
 
     @property
+    def size_m(self) -> Vector3:
+        """As it looks on the whole, looks with more pixels counting more."""
+        x, y, z = np.exp(self._sizes / self._pixels).tolist()
+        return x, y, z
+
+    @property
     def chances(self) -> Array:
         """Probabilities of the classes: a geometric mean of all looks, and sharper than that."""
         power = 1.0 / (SHARED * self.looks + 1.0 - SHARED)
@@ -62,7 +73,7 @@ class Sighted:
 
     def name(self, classes: Classes, sure: Sure) -> Name:
         """What it is taken for by now."""
-        name = classes.name(self.chances, sure)
+        name = classes.name(self.chances, sure, self.size_m)
         if name.kind and self.looks < LEAST_LOOKS:
             return Name("", name.family, name.score)
         return name
