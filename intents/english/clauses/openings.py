@@ -79,7 +79,7 @@ def _urging_end(text: Text, at: int) -> int | None:
 def otherwise_end(text: Text, at: int) -> int | None:
     """Where "otherwise", "if not" or "if it is not," ends, if it begins at a word."""
     asked = text.phrase_end(_IF_NOT, at)
-    if asked and text.word(asked) in (COMMA, "then"):
+    if asked and (text.word(asked) in (COMMA, "then") or nothing_end(text, asked)):
         return asked
     return text.phrase_end(lexicon.ELSE, at)
 

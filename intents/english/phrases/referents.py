@@ -166,7 +166,7 @@ def to_object(phrase: NounPhrase, scope: Scope, *, spots: bool = False) -> Objec
         color=color,
         size=size,
         superlative=superlative,
-        count=phrase.count or (1 if _is_any(phrase) else None),
+        count=phrase.count or (1 if _is_any(phrase) or _is_one_more(phrase, scope) else None),
         at=at,
         relation=relation,
         except_=_without(phrase.without, scope) if phrase.without else None,
@@ -209,6 +209,13 @@ def _is_any(phrase: NounPhrase) -> bool:
     if phrase.superlative or phrase.noun not in ("name", "object"):
         return False
     return phrase.determiner in _INDEFINITE or phrase.said in ("something", "anything")
+
+
+def _is_one_more(phrase: NounPhrase, scope: Scope) -> bool:
+    """A mug on the table and *one* on the bar: another, of those that any will do of."""
+    last = scope.object
+    told = phrase.determiner or phrase.color or phrase.size or phrase.superlative or phrase.other
+    return phrase.noun == "one" and not told and last is not None and last.count is not None
 
 
 def _object_name(phrase: NounPhrase, scope: Scope, spots: bool) -> tuple[str, str]:

@@ -16,6 +16,7 @@ from intents.english.words.courtesy import ADDRESSES, courtesy_end
 from intents.english.words.dialects import in_standard_words
 from intents.english.words.disfluency import fluent, unrepeated
 from intents.english.words.existentials import left_behind, uninverted
+from intents.english.words.handing_round import handed_round
 from intents.english.words.homophones import as_meant
 from intents.english.words.learners import in_english_order
 from intents.english.words.lexer import COMMA, DASHES, FULL_STOP, QUOTE, Token, tokenize
@@ -32,6 +33,7 @@ from intents.english.words.lexicon import (
 from intents.english.words.manners import Manner, manners
 from intents.english.words.measures import NUMBER_WORDS
 from intents.english.words.names import Match, NameIndex, index_of
+from intents.english.words.nearing import nearest_first
 from intents.english.words.notes import in_sentences
 from intents.english.words.particles import without_particles
 from intents.english.words.pauses import pauses_as_waits
@@ -169,6 +171,7 @@ class Text:
             unrepeated(being_there(conditional_questions(checked_states(plain), self.index)))
         )
         plain = colloquial(in_standard_words(plain, self.index))
+        plain = nearest_first(handed_round(plain, self.index), self.index)
         plain, self.all_over = all_over(plain, self.index, lambda said: _in_message(said, index))
         self.tokens: list[Token] = uninverted(left_behind(plain))
         self.words: list[str] = [t.text for t in self.tokens]

@@ -18,8 +18,6 @@ FOLDER = Path(__file__).parents[3] / "examples" / "homes"
 EXAMS = sorted(FOLDER.glob("*.tasks.yaml"))
 WAITING = {
     "how many apples have we got on board?": "a board is taken for one of a shelf, and asked for",
-    "if the jewel box is still on the banquet table carry it to the props table, "
-    "if it isn't do nothing": "“do” is taken for what the box may be, and refused",
 }
 """Wishes as they were typed that are not understood yet, and how they end."""
 
