@@ -2,7 +2,7 @@
 
 from intents.english.words.lexer import COMMA, Token
 from intents.english.words.lexicon import DETERMINERS, words
-from intents.english.words.names import NameIndex
+from intents.english.words.names import Kind, NameIndex
 
 _INTO = words("in into inside")
 _ON = words("on onto in into under")
@@ -25,7 +25,7 @@ def nearest_first(tokens: list[Token], index: NameIndex) -> list[Token]:
     return tokens
 
 
-def _end(said: list[str], at: int, where: frozenset[str], index: NameIndex, kind: str) -> int:
+def _end(said: list[str], at: int, where: frozenset[str], index: NameIndex, kind: Kind) -> int:
     """Where "in the pantry" ends, if it begins at a word and what is named is of a kind."""
     if said[at : at + 1] == [] or said[at] not in where:
         return 0
