@@ -5,6 +5,8 @@ It has no clock of its own: time is that of the motors' states.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from robot.drivers.body_sample import BodySample
@@ -98,9 +100,15 @@ class BusOwner:
             self._last, self._is_sent = command, True
         return command
 
-    def reset(self) -> State | Refused:
-        """Forget all, if that is allowed now; the next controller enables the motors anew."""
-        answer = ladder.reset(self.state, self._signs)
+    def reset(self, *, is_pressed: bool | None = None) -> State | Refused:
+        """Forget all, if that is allowed now; the next controller enables the motors anew.
+
+        `is_pressed`: what the stop input says by now; None: what it said in the last period.
+        """
+        signs = self._signs
+        if is_pressed is not None:
+            signs = signs._replace(stop_s=math.inf if is_pressed else 0.0)
+        answer = ladder.reset(self.state, signs)
         if isinstance(answer, State):
             self._forget()
         return answer

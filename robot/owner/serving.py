@@ -203,7 +203,7 @@ class Serving:
         wish = self._memory.wish()
         if wish is None:
             return
-        answer = self._owner.reset()
+        answer = self._owner.reset(is_pressed=self._is_pressed())  # as it is since the wish
         if isinstance(answer, Refused):
             self._say(refused=f"{answer.cause}: {answer.cure}")
             self._tell(f"{self._stamp_s:.3f} s, reset refused: {answer.cause} ({answer.cure})")

@@ -241,6 +241,16 @@ def test_a_wish_on_the_way_down_is_refused_with_its_cause_and_one_at_the_end_is_
     assert len(rig.body.motors.told) > told
 
 
+def test_a_wish_made_right_after_the_stop_was_released_is_taken(rig):
+    rig.begin()
+    rig.is_pressed = True
+    rig.work(10)
+    rig.is_pressed = False
+    rig.controller.wish_reset()
+    rig.work(1)
+    assert rig.controller.standing().level == Level.OK
+
+
 def test_pressed_there_is_no_torque_in_the_next_period_and_no_reset(rig):
     rig.begin()
     rig.is_pressed = True
