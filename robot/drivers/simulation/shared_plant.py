@@ -7,7 +7,6 @@ motors, and the hash of the configuration; then come its two records, each a `Se
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import mmap
 import struct
 from dataclasses import replace
@@ -20,6 +19,7 @@ from robot.closing import Closing
 from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
 from robot.drivers.motor_bus import MotorCommand, MotorState
 from robot.drivers.simulation.seqlock import Seqlock
+from robot.drivers.simulation.turns import Turns
 from robot.errors import DriverError
 from robot.model.description import RobotDescription
 from robot.se3 import Array
@@ -42,7 +42,7 @@ def _sample_size(count: int) -> int:
     return 3 + 4 * count + 30
 
 
-class PlantMemory:
+class PlantMemory(Turns):
     """The file, mapped: a header and two records."""
 
     def __init__(self, robot: RobotDescription, folder: Path, *, create: bool) -> None:
@@ -71,18 +71,6 @@ class PlantMemory:
         self.count = count
         self.command = Seqlock(self._map, HEADER.size, size=_command_size(count))
         self.sample = Seqlock(self._map, sample_at, size=_sample_size(count))
-
-    def lock(self) -> bool:
-        """Become the one that commands, until `unlock` or the process's end; False: another is."""
-        try:
-            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return False
-        return True
-
-    def unlock(self) -> None:
-        """Let another one command."""
-        fcntl.flock(self._file, fcntl.LOCK_UN)
 
     def close(self) -> None:
         """Let go of the memory; the file stays."""

@@ -8,7 +8,6 @@ a magic, the number of motors, and the hash of the configuration; then come its 
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import mmap
 import struct
 from pathlib import Path
@@ -21,6 +20,7 @@ from robot.closing import Closing
 from robot.drivers.motor_bus import MotorCommand, MotorState
 from robot.drivers.motors.alarms import Level
 from robot.drivers.simulation.seqlock import Seqlock
+from robot.drivers.simulation.turns import Turns
 from robot.errors import DriverError
 from robot.messages import MotorAlarm
 from robot.model.description import RobotDescription
@@ -84,7 +84,7 @@ class Reported(msgspec.Struct, frozen=True):
     refused: str = ""
 
 
-class OwnerMemory(Closing):
+class OwnerMemory(Turns, Closing):
     """The file, mapped. The owner creates it; controllers, and who looks on, open it."""
 
     def __init__(self, robot: RobotDescription, folder: Path, *, create: bool = False) -> None:
@@ -130,18 +130,6 @@ class OwnerMemory(Closing):
         self._file.close()
 
     # --- who commands ----------------------------------------------------------------------------
-
-    def lock(self) -> bool:
-        """Become the one that commands, until `unlock` or the process's end; False: another is."""
-        try:
-            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return False
-        return True
-
-    def unlock(self) -> None:
-        """Let another one command."""
-        fcntl.flock(self._file, fcntl.LOCK_UN)
 
     def is_claimed(self) -> bool:
         """Whether a process that lives commands; asked by the owner, who never does."""
