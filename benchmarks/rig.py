@@ -14,6 +14,7 @@ import numpy as np
 from robot.control.loop import BUS_PERIOD_S, ControlLoop
 from robot.messages import BodyCommand, Channel
 from robot.model import description
+from robot.reality.contract import USUAL
 from robot.se3 import SE3, wrap_angle
 from sim.plant import Plant
 from sim.world import empty
@@ -37,7 +38,7 @@ class Rig:
         seed: int = 0,
         world: World | None = None,
         robot: str = "juno",
-        reality: str = "ideal",
+        reality: str = USUAL,
     ) -> None:
         """Stand at the world's start; noise, and what is wrong, is drawn from `seed`."""
         self.robot = description.load(robot)

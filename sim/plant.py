@@ -19,6 +19,7 @@ from robot.errors import ConfigError, DriverError
 from robot.messages import EyesBy, LocalisedBy, Message, Place
 from robot.model.description import RobotDescription
 from robot.physics import GRAVITY_M_S2
+from robot.reality.contract import IDEAL
 from robot.reality.faults import check_name
 from robot.se3 import SE3, Array
 from sim import atlas
@@ -31,7 +32,7 @@ from sim.motors import HEAT_PERIOD_S, WATCHDOG_S, Motors
 from sim.oracle import POSE_ERROR_M, Oracle
 from sim.people import People
 from sim.placing import placed
-from sim.realities import IDEAL, profile
+from sim.realities import profile
 from sim.sending import Sending
 from sim.somebody import PERIOD_S as PEOPLE_PERIOD_S
 from sim.world_schema import World

@@ -18,8 +18,6 @@ from robot.files import config
 from robot.reality.faults import check_name
 
 FILE = Path(str(resources.files("sim"))) / "realities.yaml"
-IDEAL = "ideal"
-"""Where nobody says otherwise."""
 
 Size: TypeAlias = Annotated[float, Meta(ge=0.0, le=100.0)]
 Range: TypeAlias = tuple[Size, Size]

@@ -11,7 +11,7 @@ import msgspec
 
 from robot.messages import EyesBy, LocalisedBy
 from robot.model.description import RobotDescription
-from robot.reality.contract import Begin, Cast, EmulatedBuses, Home, ThingKind
+from robot.reality.contract import IDEAL, USUAL, Begin, Cast, EmulatedBuses, Home, ThingKind
 from robot.reality.faults import Fault
 from robot.reality.studio import Studio
 from robot.reality.visual_scene import VisualScene
@@ -41,7 +41,7 @@ class Simulation:
 
     def __init__(
         self,
-        profile: str = realities.IDEAL,
+        profile: str = USUAL,
         *,
         eyes: EyesBy = "oracle",
         localisation: LocalisedBy = "oracle",
@@ -169,7 +169,7 @@ class SimulatedWorld:
         *,
         name: str = "",
         vary_seed: int | None = None,
-        profile: str = realities.IDEAL,
+        profile: str = IDEAL,
         eyes: EyesBy = "oracle",
         localisation: LocalisedBy = "oracle",
     ) -> None:

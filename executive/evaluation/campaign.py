@@ -27,7 +27,7 @@ from robot.files import config, yaml_nodes
 from robot.files.yaml_nodes import Node
 from robot.messages import EyesBy, LocalisedBy
 from robot.reality import truth
-from robot.reality.contract import Reality
+from robot.reality.contract import IDEAL, USUAL, Reality
 
 SHIPPED = Path(__file__).parent / "campaign.yaml"
 RECOVERED = "recovered"
@@ -35,8 +35,6 @@ REFUSED = "refused"
 """In place of a code: the sentence leads to nothing, refused or asked back for whatever reason."""
 LIMIT_S = 420.0
 """Of robot time: a fetch through three rooms takes some 150 s, with a search and a retry 300 s."""
-IDEAL = "ideal"
-"""The reality where nobody says otherwise."""
 MOST_CASES = 1000
 """Of a file: each is checked as if it were to be done, which takes milliseconds."""
 MOST_RUNS = 100_000
@@ -284,7 +282,7 @@ def runs(
     seeds: int,
     without_too: bool,
     robot: str,
-    reality: str = IDEAL,
+    reality: str = USUAL,
     eyes: EyesBy = "oracle",
     localised: Callable[[Case], LocalisedBy] = _by_oracle,
 ) -> list[Run]:

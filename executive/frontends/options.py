@@ -26,6 +26,7 @@ import typer
 from executive.frontends import completing
 from executive.frontends.dump.cli import Dump, DumpFormat, DumpOn
 from robot.messages import AskedLocalisation, EyesBy
+from robot.reality.contract import USUAL
 
 T = TypeVar("T")
 
@@ -118,7 +119,7 @@ class Seeded:
     """How time passes, and what is drawn."""
 
     seed: Seed = 0
-    reality: InReality = "ideal"
+    reality: InReality = USUAL
     eyes: Eyes = "oracle"
     localisation: Localisation = "auto"
     fast: Annotated[
@@ -298,7 +299,7 @@ class Eval:
     robot: Annotated[
         str, typer.Option("--robot", "-r", help="In place of the missions' own (juno).")
     ] = ""
-    reality: InReality = "ideal"
+    reality: InReality = USUAL
     eyes: Eyes = "oracle"
     localisation: Localisation = "auto"
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")] = (

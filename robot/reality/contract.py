@@ -22,6 +22,11 @@ from robot.reality.truth import Check, Verdict
 from robot.reality.visual_scene import VisualScene
 from robot.se3 import SE3, Vector3
 
+IDEAL = "ideal"
+"""The profile in which nothing is off but for white noise."""
+USUAL = "real"
+"""Where nothing else is said: no kinder than what a robot lives in (docs/realities.md)."""
+
 
 class Reality(Protocol):
     """Where worlds come from. A value without a state: it can be pickled, and sent to a worker."""

@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from executive.frontends.options import AsJson, Driver, InReality, Robot
+from robot.reality.contract import USUAL
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -139,7 +140,7 @@ class SimulateFailsafe:
     ] = Loss.KILL
     robot: Robot = "juno"
     driver: Driver = "can"
-    reality: InReality = "ideal"
+    reality: InReality = USUAL
     as_json: AsJson = False
 
 

@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 import typer
 
 from executive.frontends.options import AsJson, InReality, Robot, Seed, World
+from robot.reality.contract import USUAL
 from robot.reality.studio import Renderer
 
 app = typer.Typer(
@@ -72,7 +73,7 @@ def snap(
     world: World = "kitchen",
     robot: Robot = "juno",
     seed: Seed = 0,
-    reality: InReality = "ideal",
+    reality: InReality = USUAL,
     show: Annotated[
         Literal["both", "colour", "depth"],
         typer.Option("--show", help="Colours, depth, or both side by side."),

@@ -17,6 +17,7 @@ from robot.messages import (
     Walk,
     WalkTo,
 )
+from robot.reality.contract import IDEAL
 from robot.se3 import SE3
 
 
@@ -44,7 +45,9 @@ def test_it_stands_still(rig):
     assert rig.drift_m() < 0.003
 
 
-def test_it_walks_as_fast_as_it_is_told_then_stands(rig):
+def test_it_walks_as_fast_as_it_is_told_then_stands():
+    rig = Rig(seed=1, reality=IDEAL)
+    assert rig.run(0.5)
     X_WS, gait = rig.X_WS, rig.robot.walking
     rig.send(Walk, forward_m_s=0.35, hold_s=5.0)
     assert rig.run(2.2)

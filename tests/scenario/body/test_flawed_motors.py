@@ -6,6 +6,7 @@ import pytest
 
 from benchmarks.rig import Rig
 from robot.messages import Stand, Walk
+from robot.reality.contract import IDEAL
 from robot.reality.faults import Delay
 from sim.faults import apply
 
@@ -19,7 +20,7 @@ def test_it_walks_in_a_harsh_reality():
 
 
 def test_a_delay_that_begins_is_found():
-    rig = Rig(seed=4)
+    rig = Rig(seed=4, reality=IDEAL)
     assert rig.run(0.5)
     rig.send(Walk, forward_m_s=0.3, hold_s=60.0)
     assert rig.run(2.0)

@@ -9,6 +9,7 @@ from benchmarks.rig import Rig
 from robot.bringup.fast import FastRuntime
 from robot.control.loop import BUS_PERIOD_S
 from robot.messages import GetUp, Stand, Walk
+from robot.reality.contract import IDEAL
 from robot.reality.faults import Kill, OffsetImu
 from sim.faults import apply
 from sim.simulation import Simulation
@@ -25,7 +26,7 @@ def offset(*gyro_deg_s):
 
 
 def spoilt(*gyro_deg_s):
-    rig = Rig(seed=3)
+    rig = Rig(seed=3, reality=IDEAL)  # nothing else is off: what is learnt is compared with it
     apply(rig.plant, offset(*gyro_deg_s))
     assert rig.run(1.0)
     return rig

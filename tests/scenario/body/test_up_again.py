@@ -53,7 +53,8 @@ def test_it_gets_up_stands_and_walks(towards_deg, walking):
     assert rig.loop.mode == "stand"
     assert state.activities["legs"].status == "done"
     assert state.failure is None
-    assert rig.loop.latency.delay_s == 0.0  # nor did the floor look like late motors
+    latest_ms = rig.plant.profile.joints.delay_ms[1]
+    assert 1000.0 * rig.loop.latency.delay_s <= latest_ms  # nor did the floor look like late motors
     assert rig.upright
     assert rig.run(1.0)
     X_NS = rig.X_NS

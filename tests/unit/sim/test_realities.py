@@ -46,7 +46,7 @@ def test_a_world_says_of_which_it_is_and_keeps_it():
     world = Simulation().under("real").world("empty")
     assert world.profile == "real"
     assert world.nudged(3).profile == "real"
-    assert Simulation().world("empty").profile == "ideal"
+    assert Simulation().world("empty").profile == "real", "the default of all that says nothing"
 
 
 @pytest.mark.parametrize("name", ["real", "harsh"])
@@ -151,7 +151,7 @@ def test_a_lidar_drops_beams_and_sees_nothing_too_near(juno):
     there = world.plant(juno, seed=0)
     mujoco.mj_kinematics(there.model, there.data)
     lidar = there.sending.lidar
-    ideal = Simulation().world("kitchen").plant(juno, seed=0)
+    ideal = Simulation().under("ideal").world("kitchen").plant(juno, seed=0)
     mujoco.mj_kinematics(ideal.model, ideal.data)
     seen = np.isfinite(lidar.scan(0.0).ranges_m)
     all_seen = np.isfinite(ideal.sending.lidar.scan(0.0).ranges_m)
