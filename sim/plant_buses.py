@@ -127,7 +127,11 @@ class PlantBuses(Closing):
         self._motor_places: list[int] = []
         buses = {} if joints is None else joints.buses
         wires = {
-            name: Wire(bitrate_hz=bus.bitrate_hz, now_s=self._plant.time_s)
+            name: Wire(
+                bitrate_hz=bus.bitrate_hz,
+                data_bitrate_hz=bus.data_bitrate_hz,
+                now_s=self._plant.time_s,
+            )
             for name, bus in buses.items()
         }
         for name, joint in ({} if joints is None else joints.joints).items():

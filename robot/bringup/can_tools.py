@@ -30,15 +30,23 @@ AT_ONCE = 32
 DISABLED = "disabled"
 
 
-def nameless(channels: Sequence[str], interface: str = SOCKETCAN) -> JointMap:
+def nameless(
+    channels: Sequence[str], interface: str = SOCKETCAN, data_bitrate_hz: int = 0
+) -> JointMap:
     """A map of CAN interfaces by their own names, in which no joint stands."""
-    buses = {channel: Bus(channel=channel, interface=interface) for channel in channels}
+    buses = {
+        channel: Bus(channel=channel, interface=interface, data_bitrate_hz=data_bitrate_hz)
+        for channel in channels
+    }
     return JointMap(rate_hz=500, buses=buses, joints={})
 
 
 def elsewhere(joints: JointMap, channels: Mapping[str, str], by: str) -> JointMap:
     """A map with its buses at other channels."""
-    buses = {name: Bus(channel=channels[name], interface=by) for name in joints.buses}
+    buses = {
+        name: msgspec.structs.replace(bus, channel=channels[name], interface=by)
+        for name, bus in joints.buses.items()
+    }
     return msgspec.structs.replace(joints, buses=buses)
 
 
@@ -79,7 +87,8 @@ class _Asked(NamedTuple):
 
 def _scan(ports: Ports, clock: Clock, joints: JointMap, asked: _Asked, up_to: int) -> list[Seen]:
     """Of one family."""
-    buses, settings = joints.buses, asked.asking.settings
+    settings, is_fd = asked.asking.settings, asked.family.fd is not None
+    buses = [name for name, bus in joints.buses.items() if bus.is_fd == is_fd]
     mine = {name: one for name, one in joints.joints.items() if one.family is asked.family}
     named = {(one.bus, one.id): name for name, one in mine.items()}
     heard: dict[tuple[str, int], list[int]] = {}

@@ -67,7 +67,10 @@ def build(
     flaws = flaws or {}
     _check(wanted, flaws)
     buses = wanted.buses.items()
-    wires = {name: Wire(bitrate_hz=bus.bitrate_hz, now_s=now_s) for name, bus in buses}
+    wires = {
+        name: Wire(bitrate_hz=bus.bitrate_hz, data_bitrate_hz=bus.data_bitrate_hz, now_s=now_s)
+        for name, bus in buses
+    }
     motors: dict[str, CanMotor] = {}
     others: list[CanMotor] = []
     swing_rad_s = 0.0 if is_still else SWING_RAD_S

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass, field
-from typing import Literal, get_args
+from typing import ClassVar, Literal, get_args
 
 from sim.devices.shaft import LET_GO, Order, Shaft
 from sim.devices.wire import CanFrame, Node, Wire
@@ -55,6 +55,7 @@ class CanMotor:
         trouble: what is wrong with it.
         winding_c, driver_c, volts: what it measures.
         zero_rad: its shaft's angle where it says 0.
+        knows_fd: whether its controller is one of CAN FD.
     """
 
     wire: Wire
@@ -73,6 +74,7 @@ class CanMotor:
     volts: float = 24.0
     heat_k_s: float = 4.0
     zero_rad: float = 0.0
+    knows_fd: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         """Switch on: disabled, watchdog off, as delivered."""
@@ -80,7 +82,7 @@ class CanMotor:
         self.tau_nm = 0.0
         self._ordered, self._last = LET_GO, b""
         self._heard_s = self._lived_s = self.wire.now_s
-        self._node: Node = self.wire.attach(self.hear)
+        self._node: Node = self.wire.attach(self.hear, knows_fd=self.knows_fd)
 
     @property
     @abstractmethod
@@ -115,6 +117,11 @@ class CanMotor:
                 pass
 
     @property
+    def _in_force(self) -> Order:
+        """What its loop does now."""
+        return self._ordered if self.is_on else LET_GO
+
+    @property
     def _q_rad(self) -> float:
         return self.shaft.q_rad - self.zero_rad
 
@@ -134,7 +141,7 @@ class CanMotor:
         while self._lived_s + span_s <= until_s + SAME_S:
             self._lived_s += span_s
             self._watch()
-            order: Order = self._ordered if self.is_on else LET_GO
+            order = self._in_force
             most_nm = self._most_nm
             self.tau_nm = self.shaft.turn(order, most_nm, span_s)
             load = abs(self.tau_nm) / most_nm

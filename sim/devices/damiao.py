@@ -60,7 +60,7 @@ class Damiao(CanMotor):
 
     def hear(self, frame: CanFrame, now_s: float) -> None:
         """A frame of somebody else's went by."""
-        number, data, extended = frame
+        number, data, extended, _ = frame
         if number not in (self.registers[8], 0x7FF) or extended or len(data) != 8:
             return
         if number == 0x7FF:

@@ -12,7 +12,7 @@ from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.ports import Heard
 from sim.devices.bench import Bench
 from sim.devices.server import QUEUE_FRAMES
-from sim.devices.socket_frames import OFF_FRAME, SIZE, packed, unpacked
+from sim.devices.socket_frames import FD_SIZE, OFF_FRAME, SIZE, packed, unpacked
 from sim.devices.wire import CanFrame, Node
 
 
@@ -41,7 +41,7 @@ class DirectPorts(Closing):
         return self
 
     def _hear(self, bus: str, frame: CanFrame) -> None:
-        self._heard.append(Heard(bus, Frame(frame.id, frame.data, frame.extended)))
+        self._heard.append(Heard(bus, Frame(*frame)))
 
     def node(self, bus: str) -> Node:
         """The controller on a wire."""
@@ -67,19 +67,25 @@ class DirectPorts(Closing):
 
     def send_packed(self, bus: str, frames: bytes) -> int:
         """Queue packed frames; how many there was room for."""
-        node, now_s = self._nodes[bus], self._clock.now_s()
-        for taken in range(len(frames) // SIZE):
-            frame = unpacked(frames[taken * SIZE : (taken + 1) * SIZE])
+        node, now_s, size = self._nodes[bus], self._clock.now_s(), self._size(bus)
+        for taken in range(len(frames) // size):
+            frame = unpacked(frames[taken * size : (taken + 1) * size])
             if frame is not None and not node.send(frame, now_s):
                 return taken
-        return len(frames) // SIZE
+        return len(frames) // size
 
     def receive_packed(self) -> Sequence[tuple[str, bytes]]:
         """What came in up to now."""
-        return [
+        heard = self.receive(self._clock.now_s())
+        told = [
             (one.bus, OFF_FRAME if one.frame is None else packed(_can_frame(one.frame)))
-            for one in self.receive(self._clock.now_s())
+            for one in heard
         ]
+        return [(bus, data.ljust(self._size(bus), b"\0")) for bus, data in told]
+
+    def _size(self, bus: str) -> int:
+        """Bytes of a packed frame there."""
+        return FD_SIZE if self._bench.wires[bus].carries_fd else SIZE
 
     def close(self) -> None:
         """Pull the plugs."""
@@ -89,4 +95,4 @@ class DirectPorts(Closing):
 
 
 def _can_frame(frame: Frame) -> CanFrame:
-    return CanFrame(frame.id, frame.data, frame.is_extended)
+    return CanFrame(*frame)

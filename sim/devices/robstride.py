@@ -76,7 +76,7 @@ class RobStride(CanMotor):
 
     def hear(self, frame: CanFrame, now_s: float) -> None:
         """A frame of somebody else's went by."""
-        number, data, extended = frame
+        number, data, extended, _ = frame
         kind = number >> 24
         if not extended or number & 0xFF != self.motor_id or len(data) != 8:
             return

@@ -11,7 +11,7 @@ from typing import Protocol
 
 from robot.clock import Clock
 from robot.closing import Closing
-from sim.devices.socket_frames import OFF_FRAME, SIZE, packed, unpacked
+from sim.devices.socket_frames import FD_SIZE, OFF_FRAME, packed, unpacked
 from sim.devices.wire import NEVER, CanFrame, Node, Wire
 
 QUEUE_FRAMES = 10
@@ -65,7 +65,7 @@ class _Program:
         self.taken = 0
         while self.node.has_room:
             try:
-                data = self.client.recv(SIZE)
+                data = self.client.recv(FD_SIZE)
             except BlockingIOError:
                 return True
             except ConnectionResetError:

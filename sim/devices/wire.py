@@ -23,11 +23,12 @@ NEVER = float("inf")
 
 
 class CanFrame(NamedTuple):
-    """A data frame: identifier of 11 bits, or of 29; up to 8 bytes."""
+    """A data frame: identifier of 11 bits, or of 29; up to 8 bytes, or up to 64 of CAN FD."""
 
     id: int
     data: bytes
     extended: bool = False
+    fd: bool = False
 
     def rank(self) -> int:
         """The lower wins: the first 11 bits, then a short identifier over a long one."""
@@ -36,8 +37,16 @@ class CanFrame(NamedTuple):
         return self.id << 19
 
     def bits(self) -> int:
-        """On the wire at worst, with the pause behind it."""
+        """On the wire at worst, with the pause behind it, of a classic frame."""
         return (_EXTENDED_BITS if self.extended else _BITS)[len(self.data)]
+
+    def fd_bits(self) -> tuple[int, int]:
+        """The same of an FD frame: before and behind its data, and of them, at another rate."""
+        count = 8 * len(self.data)
+        begins, crc = (36 if self.extended else 17), (21 if len(self.data) > 16 else 17)
+        stuffed, early = (begins + 5 + count - 1) // 4, (begins - 1) // 4
+        fixed = (4 + crc + 3) // 4
+        return begins + early + 13, 5 + count + stuffed - early + 4 + crc + fixed
 
 
 _BITS, _EXTENDED_BITS = (
@@ -50,6 +59,7 @@ class Node:
     """A CAN controller on a wire.
 
     Attributes:
+        knows_fd: whether it takes FD frames for frames, and not for errors.
         transmit_errors, receive_errors: its counters.
         is_off: it took itself off the bus, until `restart`.
         garbles: how many of its next frames nobody can read.
@@ -65,9 +75,10 @@ class Node:
         room: int,
         on_off: Callable[[], None],
         on_wants: Callable[[], None],
+        knows_fd: bool = True,
     ) -> None:
         """A controller whose queue has room for so many frames; `on_wants`: it wants others."""
-        self.hears, self.on_off = hears, on_off
+        self.hears, self.on_off, self.knows_fd = hears, on_off, knows_fd
         self._wants: frozenset[int] | None = None
         self._on_wants = on_wants
         self.transmit_errors = self.receive_errors = 0
@@ -145,11 +156,14 @@ class Wire:
         busy_s: for how long of that it carried something.
     """
 
-    def __init__(self, *, bitrate_hz: float = 1e6, now_s: float = 0.0) -> None:
-        """An idle wire, from a time on."""
+    def __init__(
+        self, *, bitrate_hz: float = 1e6, data_bitrate_hz: float = 0.0, now_s: float = 0.0
+    ) -> None:
+        """An idle wire, from a time on; FD frames are frames where there is a rate for data."""
         self.now_s, self.busy_s = now_s, 0.0
         self.nodes: list[Node] = []
         self._bit_s = 1.0 / bitrate_hz
+        self._data_bit_s = 1.0 / data_bitrate_hz if data_bitrate_hz else 0.0
         self._senders: list[Node] = []
         self._ends_s = NEVER
         self._routes: dict[int, list[Node]] = {}
@@ -162,6 +176,7 @@ class Wire:
         *,
         room: int = 64,
         on_off: Callable[[], None] = lambda: None,
+        knows_fd: bool = True,
     ) -> Node:
         """Connect a controller.
 
@@ -169,8 +184,9 @@ class Wire:
             hears: is told every frame of the others, and when it was complete.
             room: of its transmit queue, in frames.
             on_off: is told when it goes off the bus.
+            knows_fd: whether it takes FD frames for frames; one of CAN 2.0 destroys them.
         """
-        node = Node(hears, room=room, on_off=on_off, on_wants=self._routes.clear)
+        node = Node(hears, room=room, on_off=on_off, on_wants=self._routes.clear, knows_fd=knows_fd)
         self.nodes.append(node)
         return node
 
@@ -222,21 +238,32 @@ class Wire:
             elif node.rank == best:
                 ready.append(node)
         self._senders = ready
-        bits = ready[0].first().bits()
+        frame = ready[0].first()
+        if frame.fd:
+            bits, fast_bits = frame.fd_bits()
+            took_s = self._bit_s * bits + self._data_bit_s * fast_bits
+        else:
+            took_s = self._bit_s * frame.bits()
         if self._spoilt(ready):
-            bits += ERROR_BITS
-        took_s = self._bit_s * bits
+            took_s += self._bit_s * ERROR_BITS
         self._ends_s = now_s + took_s
         self.busy_s += took_s
         return True
 
-    @staticmethod
-    def _spoilt(senders: list[Node]) -> bool:
-        """Whether nobody can read it: two say different things at once, or one is broken."""
+    def _spoilt(self, senders: list[Node]) -> bool:
+        """Whether nobody can read it: two say different things at once, one is broken, or an FD
+        frame met a controller that does not know such."""
+        if senders[0].first().fd and not self.carries_fd:
+            return True
         if len(senders) == 1:
             return senders[0].garbles > 0
         frames = {node.first() for node in senders}
         return len(frames) > 1 or any(node.garbles for node in senders)
+
+    @property
+    def carries_fd(self) -> bool:
+        """Whether FD frames get through: there is a rate for their data, and all know them."""
+        return self._data_bit_s > 0.0 and all(node.knows_fd for node in self.nodes)
 
     def _finish(self) -> None:
         self._ends_s = NEVER
@@ -247,7 +274,7 @@ class Wire:
             self._routes.clear()
             self._routed, self._is_calm = self.nodes.copy(), False
         sender = senders[0]
-        if self._is_calm and len(senders) == 1 and not sender.garbles and len(self._routed) > 1:
+        if self._is_calm and len(senders) == 1 and self._routable(sender):
             frame = sender.first()
             sender.sent()
             route = self._routes.get(frame.id)
@@ -257,6 +284,12 @@ class Wire:
         else:
             self._finish_in_trouble(senders)
             self._is_calm = not any(node.is_off or node.receive_errors for node in self.nodes)
+
+    def _routable(self, sender: Node) -> bool:
+        """Whether its frame arrives as it is sent, and somebody is there who hears it."""
+        if sender.garbles or len(self._routed) < 2:  # noqa: PLR2004
+            return False
+        return not sender.first().fd or self.carries_fd
 
     def _route(self, number: int) -> list[Node]:
         """Who wants this identifier."""

@@ -18,7 +18,7 @@ from robot.drivers.motors.can.fields import limits
 from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.interview import interview
 from robot.drivers.motors.can.joint_map import JointMap
-from robot.drivers.motors.can.packed import packed
+from robot.drivers.motors.can.packed import packed, size_on
 from robot.drivers.motors.can.ports import Ports, PythonCan, check_buses
 from robot.drivers.motors.can.reception import Reception
 from robot.drivers.motors.can.sending import TransmitQueue
@@ -112,7 +112,9 @@ class CanMotors(Closing):
         self._refreshes = _refreshes(joints)
         self._claim = Claim(f"{bus.interface}:{bus.channel}" for bus in joints.buses.values())
         self._life = Life(ports, self._claim)
-        self.queues = {bus: TransmitQueue(bus) for bus in joints.buses}
+        self.queues = {
+            bus: TransmitQueue(bus, size_on(is_fd=one.is_fd)) for bus, one in joints.buses.items()
+        }
         self._is_armed = False
         self._asked = False
         self._asks = True

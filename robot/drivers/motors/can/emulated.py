@@ -21,8 +21,11 @@ def buses_in(joints: JointMap, folder: Path) -> JointMap:
     """A map whose buses are the sockets that a simulation listens at."""
     buses = {
         name: Bus(
-            channel=str(socket_path(folder, index)), interface=INTERFACE, bitrate_hz=bus.bitrate_hz
-        )
+            channel=str(socket_path(folder, index)),
+            interface=INTERFACE,
+            bitrate_hz=bus.bitrate_hz,
+            data_bitrate_hz=bus.data_bitrate_hz,
+        )  # fmt: skip
         for index, (name, bus) in enumerate(joints.buses.items())
     }
     return msgspec.structs.replace(joints, buses=buses)

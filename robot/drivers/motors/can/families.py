@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -61,24 +61,50 @@ class Asking:
     reply: Callable[[Frame], RegisterReply | None]
 
 
+class FdSizes(NamedTuple):
+    """Bytes of data of a family's FD frames: of a command, and of its reply."""
+
+    command: int
+    reply: int
+
+
+class MakesMany(Protocol):
+    """The codec of several motors, from their identifiers and ranges."""
+
+    def __call__(
+        self, ids: Sequence[int], ranges: Sequence[Ranges], watchdog_s: float = 0.0, /
+    ) -> ManyMotors:
+        """`watchdog_s`: for how long a command counts, where its frame says so; 0: as it is set."""
+        ...
+
+
+def never_short(motor_id: int) -> int | None:  # noqa: ARG001 - as a family has it
+    """Of families all of whose identifiers have 29 bits."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Family:
     """One family's codec: pure functions.
 
     Attributes:
+        fd: how long its frames are, of a family that speaks CAN FD; None: classic frames.
         most_id: the highest identifier of a motor.
         senders: of identifiers of 29 bits: whose feedback they are, `NOBODY`'s of others. None of a
             family whose motors each answer under an identifier of 11 bits of its own.
+        short_reply: under which identifier of 11 bits a motor answers nevertheless; None: never.
         command, target: a target into a frame, and what a frame really says.
         enable, disable, clear_fault, set_zero: by identifier; not every motor can forget a fault.
         feedback: what a reply says.
-        arrays: the same commands and replies, for several motors with these identifiers and ranges.
+        arrays: the same commands and replies, for several motors with these identifiers and ranges;
+            and for how long each command is to count, where its frames say so.
         status: what a status code says.
         asking: None of motors that cannot be asked; their map says their ranges.
     """
 
+    fd: FdSizes | None = None
     most_id: int
     senders: Callable[[npt.NDArray[np.intp]], npt.NDArray[np.intp]] | None
+    short_reply: Callable[[int], int | None] = never_short
     command: Callable[[int, Ranges, Target], Frame]
     target: Callable[[Frame, Ranges], Target]
     enable: Callable[[int], Frame]
@@ -86,7 +112,7 @@ class Family:
     clear_fault: Callable[[int], Frame] | None
     set_zero: Callable[[int], Frame]
     feedback: Callable[[Frame, Ranges], Feedback | None]
-    arrays: Callable[[Sequence[int], Sequence[Ranges]], ManyMotors]
+    arrays: MakesMany
     status: Callable[[int], Status]
     asking: Asking | None
 

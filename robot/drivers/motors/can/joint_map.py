@@ -10,6 +10,7 @@ joints:
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -34,6 +35,7 @@ REPLIES_ABOVE = 16
 
 Identifier: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=MOST_ID)]
 Bitrate: TypeAlias = Annotated[int, msgspec.Meta(ge=10_000, le=1_000_000, extra={"unit": "bit/s"})]
+DataBitrate: TypeAlias = Annotated[int, msgspec.Meta(ge=0, le=8_000_000, extra={"unit": "bit/s"})]
 Rate: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=2000, extra={"unit": "Hz"})]
 Watchdog: TypeAlias = Annotated[float, msgspec.Meta(ge=0.005, le=1.0, extra={"unit": "s"})]
 
@@ -48,11 +50,18 @@ class Bus(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True)
         channel: `can0`, or what the interface calls it.
         interface: of python-can; socketcan on a robot.
         bitrate_hz: what it was set up with.
+        data_bitrate_hz: of a bus of CAN FD, at which data go; 0: a classic bus.
     """
 
     channel: q.Line
     interface: q.Line = SOCKETCAN
     bitrate_hz: Bitrate = BITRATE_HZ
+    data_bitrate_hz: DataBitrate = 0
+
+    @property
+    def is_fd(self) -> bool:
+        """Whether it is one of CAN FD, whose data go at a rate of their own."""
+        return self.data_bitrate_hz > 0
 
     @property
     def device(self) -> str:
@@ -147,13 +156,17 @@ class JointMap(MotorMap, frozen=True, kw_only=True, forbid_unknown_fields=True):
 
     def load(self, line: str) -> float:
         """The share of its time that a bus is busy."""
-        bitrate_hz = self.buses[line].bitrate_hz
-        return sum(
-            bus_load.load(
-                1, self.rate_hz, is_extended=joint.family.is_extended, bitrate_hz=bitrate_hz
-            )
-            for joint in self.on(line).values()
+        return self.rate_hz * sum(self.pair_s(joint) for joint in self.on(line).values())
+
+    def pair_s(self, joint: JointMotor) -> float:
+        """How long a joint's command and its reply hold its bus at most."""
+        family, bus = joint.family, self.buses[joint.bus]
+        fd = family.fd and bus_load.FdPair(
+            *family.fd,
+            data_bitrate_hz=bus.data_bitrate_hz or bus.bitrate_hz,
+            is_reply_extended=family.short_reply(joint.id) is None,
         )
+        return bus_load.pair_s(is_extended=family.is_extended, bitrate_hz=bus.bitrate_hz, fd=fd)
 
 
 def load(path: Path | str) -> JointMap:
@@ -162,7 +175,7 @@ def load(path: Path | str) -> JointMap:
     Raises:
         ConfigError: with everything that is wrong in it, each with its line and a cure.
     """
-    checks = (_names, _identifiers, _limits, _loads)
+    checks = (_names, _mixed, _identifiers, _limits, _loads)
     return motor_map.read(path, JointMap, begin_with="rate_hz: 500", checks=checks)
 
 
@@ -194,12 +207,35 @@ def _names(found: JointMap) -> Iterator[Wrong]:
             text = f"a {joint.model} cannot be asked what its frames stand for"
             cure = "say its ranges, as the maker's tool shows them"
             yield f"$.joints.{name}.model", text, cure
+        elif joint.model in MODELS and math.isnan(joint.expected.torque_nm):
+            text = f"a {joint.model} is sold without a motor: nobody knows what it gives"
+            cure = "say its ranges: {position_rad, velocity_rad_s, torque_nm} of its output"
+            yield f"$.joints.{name}.model", text, cure
         if joint.is_wide and joint.reply_id:
             text = f"the replies of a {joint.model} say whose they are, under many identifiers"
             yield f"$.joints.{name}.reply_id", text, "leave reply_id out"
         if joint.model in MODELS and joint.id > (most := joint.family.most_id):
             text = f"a {joint.model} has an identifier from 1 to {most}, not {joint.id}"
             yield f"$.joints.{name}.id", text, "look it up with `humanoid motors scan`"
+
+
+def _mixed(found: JointMap) -> Iterator[Wrong]:
+    """A bus of CAN FD with motors that know classic frames only, or the other way round.
+
+    A controller of CAN 2.0 takes an FD frame for an error, and destroys it with an error frame, for
+    all: a bus with one of each carries nothing for the former's neighbours.
+    """
+    for name, joint in found.joints.items():
+        if joint.model not in MODELS or joint.bus not in found.buses:
+            continue
+        is_fd, bus = found.buses[joint.bus].is_fd, f"the bus {joint.bus!r}"
+        if joint.family.fd is None and is_fd:
+            text = f"a {joint.model} takes the FD frames of {bus} for errors, and destroys them"
+            yield f"$.joints.{name}.bus", text, "give it a bus without data_bitrate_hz"
+        elif joint.family.fd is not None and not is_fd:
+            text = f"a {joint.model} speaks CAN FD, and {bus} is a classic one"
+            cure = "write data_bitrate_hz: 5000000 there; motors of classic CAN need another bus"
+            yield f"$.joints.{name}.bus", text, cure
 
 
 def _identifiers(found: JointMap) -> Iterator[Wrong]:
@@ -222,7 +258,7 @@ def _limits(found: JointMap) -> Iterator[Wrong]:
     """A limit that the motor cannot meet, or that its frames cannot say."""
     yield from motor_map.hasty(found)
     for name, joint in found.joints.items():
-        if joint.model in MODELS:
+        if joint.model in MODELS and not math.isnan(joint.expected.torque_nm):
             most = joint.expected
             yield from motor_map.unmet(
                 f"$.joints.{name}",
@@ -242,15 +278,13 @@ def _loads(found: JointMap) -> Iterator[Wrong]:
     """A bus that cannot carry what it is asked to."""
     if any(joint.model not in MODELS for joint in found.joints.values()):
         return
-    for bus, settings in found.buses.items():
+    for bus in found.buses:
         joints, share = found.on(bus), found.load(bus)
         if share <= bus_load.MOST_LOAD:
             continue
-        wide = any(joint.family.is_extended for joint in joints.values())
-        needed = bus_load.buses_needed(
-            len(joints), found.rate_hz, is_extended=wide, bitrate_hz=settings.bitrate_hz
-        )
-        most = bus_load.most_joints(found.rate_hz, is_extended=wide, bitrate_hz=settings.bitrate_hz)
+        longest_s = max(found.pair_s(joint) for joint in joints.values())
+        most = bus_load.fitting(found.rate_hz, longest_s)
+        needed = -(-len(joints) // most) if most else 0
         text = f"{len(joints)} joints at {found.rate_hz} Hz fill it to {share:.0%}"
         cure = (
             f"{needed} buses are needed, {most} joints each, or {_slower(found, bus)} Hz"

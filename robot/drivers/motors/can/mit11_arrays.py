@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from robot.drivers.motors.can.fields import limits, refuse_misfits
+from robot.drivers.motors.can.frames import MAX_DATA
 from robot.drivers.motors.can.mit11 import AK_ERRORS
 from robot.drivers.motors.can.packed import Bytes
 from robot.drivers.motors.can.values import ENABLED, Feedbacks, Ranges
@@ -26,7 +27,9 @@ FULL, OLD_AK = 8, 6
 
 
 class ManyMit11:
-    """The codec of several motors, each with ranges of its own."""
+    """The codec of several motors, each with ranges of its own (`ManyMotors`)."""
+
+    width = MAX_DATA
 
     def __init__(
         self,
@@ -59,7 +62,7 @@ class ManyMit11:
         data = bits.astype(">u8").view(np.uint8).reshape(-1, 8)
         return self._ids, data, steps * span / _MOST + low
 
-    def is_feedback(self, lengths: Bytes) -> npt.NDArray[np.bool_]:
+    def is_feedback(self, data: Bytes, lengths: Bytes) -> npt.NDArray[np.bool_]:  # noqa: ARG002
         """Whether so much data can be a reply, shape (k,)."""
         fits = lengths == self._lengths[0]
         for length in self._lengths[1:]:
@@ -80,12 +83,12 @@ class ManyMit11:
         return Feedbacks(steps * (2.0 * sides) / _REPLY_MOST - sides, *self._tell(data, lengths))
 
 
-def damiao(ids: Sequence[int], ranges: Sequence[Ranges]) -> ManyMit11:
+def damiao(ids: Sequence[int], ranges: Sequence[Ranges], _watchdog_s: float = 0.0) -> ManyMit11:
     """The codec of Damiao's motors."""
     return ManyMit11(ids, ranges, tell=_told_by_damiao, lengths=(FULL,))
 
 
-def ak(ids: Sequence[int], ranges: Sequence[Ranges]) -> ManyMit11:
+def ak(ids: Sequence[int], ranges: Sequence[Ranges], _watchdog_s: float = 0.0) -> ManyMit11:
     """The codec of T-Motor's AK series."""
     return ManyMit11(ids, ranges, tell=_told_by_ak, lengths=(FULL, OLD_AK))
 

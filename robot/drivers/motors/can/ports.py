@@ -7,7 +7,7 @@ import select
 import socket
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple, Protocol, Self
+from typing import Any, NamedTuple, Protocol, Self
 
 import can
 
@@ -15,7 +15,16 @@ from robot.clock import Clock
 from robot.closing import Closing
 from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.joint_map import Bus
-from robot.drivers.motors.can.packed import BUS_OFF, BUS_OFF_FRAME, SIZE, packed, unpacked
+from robot.drivers.motors.can.packed import (
+    BUS_OFF,
+    BUS_OFF_FRAME,
+    FD_SIZE,
+    SIZE,
+    packed,
+    size_on,
+    unpacked,
+    wide,
+)
 from robot.errors import DriverError
 from robot.files import users_own
 from robot.printable import printable_line
@@ -103,6 +112,7 @@ class PythonCan(Closing):
         self._opened: dict[str, can.BusABC] = {}
         self._by_fd: dict[int, str] = {}
         self._sockets: dict[str, socket.socket] = {}
+        self._sizes = {name: size_on(is_fd=bus.is_fd) for name, bus in buses.items()}
         self._poll = select.poll()
         self._gone: dict[str, str] = {}
 
@@ -112,13 +122,13 @@ class PythonCan(Closing):
             try:
                 opened = self._opened[name] = can.Bus(
                     channel=bus.channel, interface=bus.interface, ignore_config=True,
-                    bitrate=bus.bitrate_hz,
+                    bitrate=bus.bitrate_hz, **_of_fd(bus),
                 )  # fmt: skip
                 number = opened.fileno()
             except Exception as error:  # each of python-can's interfaces has its own
                 self.close()
                 cure = (
-                    f"ip link set {bus.channel} up type can bitrate {bus.bitrate_hz}"
+                    f"ip link set {bus.channel} up type can bitrate {bus.bitrate_hz}{_said(bus)}"
                     if bus.interface == "socketcan"
                     else f"look at the interface {bus.interface!r} of python-can"
                 )
@@ -150,8 +160,9 @@ class PythonCan(Closing):
         if bus in self._gone:
             return True
         message = can.Message(
-            arbitration_id=frame.id, data=frame.data, is_extended_id=frame.is_extended
-        )
+            arbitration_id=frame.id, data=frame.data, is_extended_id=frame.is_extended,
+            is_fd=frame.is_fd, bitrate_switch=frame.is_fd,
+        )  # fmt: skip
         try:
             self._opened[bus].send(message, timeout=0)
         except can.CanError as error:
@@ -183,23 +194,24 @@ class PythonCan(Closing):
             return self._hand_over(bus, frames)
         except DriverError as error:
             self._lose(bus, str(error))
-            return len(frames) // SIZE
+            return len(frames) // self._sizes[bus]
 
     def _hand_over(self, bus: str, frames: bytes) -> int:
+        size = self._sizes[bus]
         if bus in self._gone:
-            return len(frames) // SIZE
+            return len(frames) // size
         taken, found = 0, self._sockets.get(bus)
         if found is None:
-            for begin in range(0, len(frames), SIZE):
-                frame = unpacked(frames[begin : begin + SIZE])
+            for begin in range(0, len(frames), size):
+                frame = unpacked(frames[begin : begin + size])
                 if frame is not None and not self.send(bus, frame):
                     break
                 taken += 1
             return taken
         send = found.send
         try:
-            for begin in range(0, len(frames), SIZE):
-                send(frames[begin : begin + SIZE], socket.MSG_DONTWAIT)
+            for begin in range(0, len(frames), size):
+                send(frames[begin : begin + size], socket.MSG_DONTWAIT)
                 taken += 1
         except OSError as error:
             if error.errno not in FULL:
@@ -212,7 +224,8 @@ class PythonCan(Closing):
         for fd, _ in self._poll.poll(0):
             name = self._by_fd[fd]
             found = self._sockets.get(name)
-            frames = self._of_bus(name) if found is None else _of_socket(name, found)
+            size = self._sizes[name]
+            frames = self._of_bus(name) if found is None else _of_socket(name, found, size)
             try:
                 together = b"".join(frames)
             except DriverError as error:
@@ -228,7 +241,8 @@ class PythonCan(Closing):
                 if (message := self._opened[name].recv(0)) is None:
                     return
                 for heard in _told(name, message):
-                    yield BUS_OFF_FRAME if heard.frame is None else packed(heard.frame)
+                    data = BUS_OFF_FRAME if heard.frame is None else packed(heard.frame)
+                    yield wide(data) if len(data) < self._sizes[name] else data
         except (can.CanError, OSError) as error:
             raise DriverError(f"the bus {name!r} went away: {error}") from None
 
@@ -253,14 +267,18 @@ def _socket_of(bus: can.BusABC) -> socket.socket | None:
     return found if is_can or is_emulated else None
 
 
-def _of_socket(name: str, found: socket.socket) -> Iterator[bytes]:
+def _of_socket(name: str, found: socket.socket, size: int) -> Iterator[bytes]:
+    """Packed frames of so many bytes each; a bus of FD tells classic ones and errors in fewer."""
     receive = found.recv
     try:
         for _ in range(MOST_A_CALL):
-            data = receive(SIZE, socket.MSG_DONTWAIT)
-            if len(data) != SIZE:
+            data = receive(size, socket.MSG_DONTWAIT)
+            if len(data) == size:
+                yield data
+            elif len(data) == SIZE and size == FD_SIZE:
+                yield wide(data)
+            else:
                 raise DriverError(f"the bus {name!r} went away")
-            yield data
     except BlockingIOError:
         return
     except OSError as error:
@@ -272,4 +290,15 @@ def _told(bus: str, message: can.Message) -> Sequence[Heard]:
         return [Heard(bus, None)] if message.arbitration_id & BUS_OFF else []
     if message.is_remote_frame:
         return []
-    return [Heard(bus, Frame(message.arbitration_id, bytes(message.data), message.is_extended_id))]
+    number, data = message.arbitration_id, bytes(message.data)
+    return [Heard(bus, Frame(number, data, message.is_extended_id, message.is_fd))]
+
+
+def _of_fd(bus: Bus) -> dict[str, Any]:
+    """What python-can is told of a bus of CAN FD, beside the rest."""
+    return {"fd": True, "data_bitrate": bus.data_bitrate_hz} if bus.is_fd else {}
+
+
+def _said(bus: Bus) -> str:
+    """The same for `ip link`."""
+    return f" dbitrate {bus.data_bitrate_hz} fd on" if bus.is_fd else ""

@@ -13,11 +13,15 @@ from robot.drivers.motors.can.packed import (
     BUS_OFF,
     ERROR,
     EXTENDED,
+    FD_RECORD,
+    FD_SIZE,
     RECORD,
     REMOTE,
     SHORT_IDS,
     Records,
+    size_on,
     unpacked,
+    wide,
 )
 from robot.drivers.motors.can.replies import is_about_register, may_be_about_register
 from robot.drivers.motors.can.values import DISABLED, NOBODY, Ranges
@@ -53,6 +57,7 @@ class Reception:
         self._replies: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self._coding, self._period_s = coding, joints.period_s
         self._motors = list(joints.joints.values())
+        self._sizes = {bus: size_on(is_fd=one.is_fd) for bus, one in joints.buses.items()}
         self._first_key = {bus: number * SHORT_IDS for number, bus in enumerate(joints.buses)}
         wide = {one.family.senders for one in self._motors} - {None}
         self._wide = [whose for whose in wide if whose is not None]
@@ -63,6 +68,8 @@ class Reception:
             whose = one.family.senders
             number = 0 if whose is None else block * (1 + self._wide.index(whose))
             self._by_key[number + self._first_key[one.bus] + one.answers_as] = index
+            if (short := one.family.short_reply(one.id)) is not None:
+                self._by_key[self._first_key[one.bus] + short] = index
         self._jumps = Jumps(np.array([one.velocity_rad_s for one in ranges]))
 
     @property
@@ -80,9 +87,8 @@ class Reception:
         What is no feedback of ours is ignored and counted. Of several replies of one motor each is
         looked at, in their order.
         """
-        frames = np.frombuffer(b"".join(packed for _, packed in came), RECORD)
+        frames, counts = self._together(came)
         keys = frames["id"].astype(np.intp)
-        counts = [len(packed) // RECORD.itemsize for _, packed in came]
         first = np.repeat(np.array([self._first_key[bus] for bus, _ in came]), counts)
         is_short = keys < SHORT_IDS
         at = np.where(is_short, keys + first, NOBODY)
@@ -92,7 +98,7 @@ class Reception:
             off = self._off(keys, first)
         which = self._by_key[at]
         ours = which != NOBODY
-        ours[ours] = self._coding.is_feedback(frames["length"][ours], which[ours])
+        ours[ours] = self._coding.is_feedback(frames[ours], which[ours])
         for index in np.flatnonzero(ours & may_be_about_register(frames["data"])).tolist():
             joint, frame = self._motors[int(which[index])], unpacked(frames[index].tobytes())
             ours[index] = frame is not None and not is_about_register(joint, frame)
@@ -111,6 +117,14 @@ class Reception:
             now = turn == number
             self._believe(which[now], frames[now], now_s)
         return off
+
+    def _together(self, came: Sequence[tuple[str, bytes]]) -> tuple[Records, list[int]]:
+        """All frames that came in one array, and how many are of each."""
+        counts = [len(data) // self._sizes[bus] for bus, data in came]
+        if FD_SIZE not in self._sizes.values():
+            return np.frombuffer(b"".join(data for _, data in came), RECORD), counts
+        parts = [data if self._sizes[bus] == FD_SIZE else wide(data) for bus, data in came]
+        return np.frombuffer(b"".join(parts), FD_RECORD), counts
 
     def _find_wide(
         self,

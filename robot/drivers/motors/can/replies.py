@@ -20,6 +20,11 @@ _REGISTER_AT, _READ, _WRITE = 2, 0x33, 0x55
 def senders(joints: Mapping[str, JointMotor]) -> Callable[[Heard], str]:
     """A function that says which of these joints' motors a frame is from; "": none of them."""
     short = {(one.bus, one.answers_as): name for name, one in joints.items() if not one.is_wide}
+    short |= {
+        (one.bus, number): name
+        for name, one in joints.items()
+        if (number := one.family.short_reply(one.id)) is not None
+    }
     wide = {(one.bus, one.answers_as): name for name, one in joints.items() if one.is_wide}
     read = {one.family.senders for one in joints.values()}
 

@@ -148,7 +148,7 @@ def senders(ids: npt.NDArray[np.intp]) -> npt.NDArray[np.intp]:
 
 def feedback(frame: Frame, ranges: Ranges) -> Feedback | None:
     """What a motor answered; None of a frame that is none."""
-    number, data, is_extended = frame
+    number, data, is_extended, _ = frame
     if len(data) != 8 or not is_extended or number >> 24 not in (FEEDBACK, REPORT):
         return None
     q, qd, tau, tenths = struct.unpack(">4H", data)
@@ -244,7 +244,7 @@ def refresh(motor_id: int) -> Frame:
 
 def register_reply(frame: Frame) -> RegisterReply | None:
     """The parameter in a reply; None if it is none, or the motor does not have it."""
-    number, data, is_extended = frame
+    number, data, is_extended, _ = frame
     if not is_extended or len(data) != 8:
         return None
     kind, said, sender = number >> 24, number >> 16 & 0xFF, number >> 8 & 0xFF

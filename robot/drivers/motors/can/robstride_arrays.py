@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from robot.drivers.motors.can.fields import limits, refuse_misfits
+from robot.drivers.motors.can.frames import MAX_DATA
 from robot.drivers.motors.can.packed import EXTENDED, Bytes
 from robot.drivers.motors.can.robstride import COMMAND, STATES, STEPS
 from robot.drivers.motors.can.values import Feedbacks, Ranges
@@ -21,7 +22,11 @@ FULL = 8
 class ManyRobStrides:
     """The codec of several motors, each with ranges of its own (`ManyMotors`)."""
 
-    def __init__(self, ids: Sequence[int], ranges: Sequence[Ranges]) -> None:
+    width = MAX_DATA
+
+    def __init__(
+        self, ids: Sequence[int], ranges: Sequence[Ranges], _watchdog_s: float = 0.0
+    ) -> None:
         """Take who they are, and what their frames stand for."""
         self._to = np.array([EXTENDED | COMMAND << 24 | number for number in ids], np.uint32)
         self._low, self._high = limits(ranges)
@@ -37,7 +42,7 @@ class ManyRobStrides:
         data = np.ascontiguousarray(whole[:_TORQUE].T).astype(">u2").view(np.uint8)
         return self._to | whole[_TORQUE] << 8, data, steps * span / STEPS + low
 
-    def is_feedback(self, lengths: Bytes) -> npt.NDArray[np.bool_]:
+    def is_feedback(self, data: Bytes, lengths: Bytes) -> npt.NDArray[np.bool_]:  # noqa: ARG002
         """Whether so much data can be a reply, shape (k,)."""
         return lengths == FULL
 

@@ -14,9 +14,9 @@ class TransmitQueue:
         full_since_s: since when the interface takes nothing; None: it does.
     """
 
-    def __init__(self, bus: str) -> None:
-        """Of a bus."""
-        self.bus = bus
+    def __init__(self, bus: str, size: int = SIZE) -> None:
+        """Of a bus, whose packed frames have so many bytes each."""
+        self.bus, self._size = bus, size
         self.replaced = 0
         self.full_since_s: float | None = None
         self._waiting = b""
@@ -32,7 +32,7 @@ class TransmitQueue:
             self.full_since_s = None
             return
         taken = ports.send_packed(self.bus, self._waiting)
-        self._waiting = self._waiting[taken * SIZE :]
+        self._waiting = self._waiting[taken * self._size :]
         if not self._waiting:
             self.full_since_s = None
         elif self.full_since_s is None:
@@ -41,4 +41,4 @@ class TransmitQueue:
     @property
     def waiting(self) -> int:
         """How many commands wait."""
-        return len(self._waiting) // SIZE
+        return len(self._waiting) // self._size

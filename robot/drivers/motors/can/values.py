@@ -102,7 +102,16 @@ class Feedbacks(NamedTuple):
 
 
 class ManyMotors(Protocol):
-    """The codec of several motors of one family, each with ranges of its own."""
+    """The codec of several motors of one family, each with ranges of its own.
+
+    Attributes:
+        width: bytes of data that its commands have, and its replies at most.
+    """
+
+    @property
+    def width(self) -> int:
+        """8, or more of CAN FD."""
+        ...
 
     def commands(self, targets: Array) -> tuple[npt.NDArray[np.uint32], Bytes, Array]:
         """Everybody's frame and what it really says.
@@ -111,7 +120,7 @@ class ManyMotors(Protocol):
             targets: q, qd, kp, kd, tau, shape (5, n), at the shafts.
 
         Returns:
-            Identifiers as `packed` has them, shape (n,), data, shape (n, 8), and what they say,
+            Identifiers as `packed` has them, shape (n,), data, shape (n, width), and what they say,
             shape (5, n).
 
         Raises:
@@ -119,8 +128,8 @@ class ManyMotors(Protocol):
         """
         ...
 
-    def is_feedback(self, lengths: Bytes) -> npt.NDArray[np.bool_]:
-        """Whether so much data can be a reply, shape (k,)."""
+    def is_feedback(self, data: Bytes, lengths: Bytes) -> npt.NDArray[np.bool_]:
+        """Whether data, shape (k, width), of which so much came, can be a reply, shape (k,)."""
         ...
 
     def feedback(
@@ -134,7 +143,7 @@ class ManyMotors(Protocol):
 
         Args:
             ids: their identifiers, as `packed` has them, shape (k,).
-            data: shape (k, 8), zeros where less came.
+            data: shape (k, width), zeros where less came.
             lengths: how much of it came, shape (k,).
             which: whose each is, shape (k,).
         """

@@ -30,12 +30,12 @@ def reply(
 
 
 def test_frames_as_the_manual_prints_them():
-    assert mit11.enable(1) == (1, bytes.fromhex("fffffffffffffffc"), False)
+    assert mit11.enable(1) == Frame(1, bytes.fromhex("fffffffffffffffc"), False)
     assert mit11.disable(1).data == bytes.fromhex("fffffffffffffffd")
     assert mit11.set_zero(2).data == bytes.fromhex("fffffffffffffffe")
-    assert mit11.clear_fault(0x7FE) == (0x7FE, bytes.fromhex("fffffffffffffffb"), False)
-    assert mit11.read_register(0x105, 21) == (0x7FF, bytes.fromhex("0501331500000000"), False)
-    assert mit11.refresh(5) == (0x7FF, bytes.fromhex("0500cc0000000000"), False)
+    assert mit11.clear_fault(0x7FE) == Frame(0x7FE, bytes.fromhex("fffffffffffffffb"), False)
+    assert mit11.read_register(0x105, 21) == Frame(0x7FF, bytes.fromhex("0501331500000000"), False)
+    assert mit11.refresh(5) == Frame(0x7FF, bytes.fromhex("0500cc0000000000"), False)
     assert mit11.store_registers(5).data == bytes.fromhex("0500aa0100000000")
     assert mit11.write_register(5, mit11.TIMEOUT, 400).data == bytes.fromhex("0500550990010000")
     assert mit11.write_register(5, 21, 12.5).data[4:] == struct.pack("<f", 12.5)

@@ -79,7 +79,7 @@ def test_replies_say_what_the_scalar_codec_reads(family):
             for _ in which
         ]
         frames = np.frombuffer(b"".join(map(packed, came)), RECORD)
-        fits = codec.is_feedback(frames["length"])
+        fits = codec.is_feedback(frames["data"], frames["length"])
         want = [family.feedback(one, RANGES[k]) for one, k in zip(came, which, strict=True)]
         assert fits.tolist() == [found is not None for found in want]
         ours = frames[fits]

@@ -20,19 +20,19 @@ words = st.integers(0, 0xFFFF)
 
 
 def test_frames_as_the_manual_prints_them():
-    assert robstride.enable(1) == (0x0300FD01, bytes(8), True)
-    assert robstride.disable(1) == (0x0400FD01, bytes(8), True)
-    assert robstride.clear_fault(1) == (0x0400FD01, b"\x01" + bytes(7), True)
-    assert robstride.set_zero(0x7F) == (0x0600FD7F, b"\x01" + bytes(7), True)
-    assert robstride.read_register(5, robstride.OWN_ID) == (0x0000FD05, bytes(8), True)
+    assert robstride.enable(1) == Frame(0x0300FD01, bytes(8), True)
+    assert robstride.disable(1) == Frame(0x0400FD01, bytes(8), True)
+    assert robstride.clear_fault(1) == Frame(0x0400FD01, b"\x01" + bytes(7), True)
+    assert robstride.set_zero(0x7F) == Frame(0x0600FD7F, b"\x01" + bytes(7), True)
+    assert robstride.read_register(5, robstride.OWN_ID) == Frame(0x0000FD05, bytes(8), True)
     read = robstride.read_register(5, 0x7019)
-    assert read == (0x1100FD05, bytes.fromhex("1970000000000000"), True)
+    assert read == Frame(0x1100FD05, bytes.fromhex("1970000000000000"), True)
     second = robstride.write_register(5, robstride.TIMEOUT, 20_000)
-    assert second == (0x1200FD05, bytes.fromhex("28700000204e0000"), True)
+    assert second == Frame(0x1200FD05, bytes.fromhex("28700000204e0000"), True)
     lowest = robstride.command(3, RANGES, Target(-4 * math.pi, -20.0, 0.0, 0.0, -60.0))
     highest = robstride.command(3, RANGES, Target(4 * math.pi, 20.0, 5000.0, 100.0, 60.0))
-    assert lowest == (0x01000003, bytes(8), True)
-    assert highest == (0x01FFFF03, b"\xff" * 8, True)
+    assert lowest == Frame(0x01000003, bytes(8), True)
+    assert highest == Frame(0x01FFFF03, b"\xff" * 8, True)
 
 
 @given(words, words, words, words, words)
