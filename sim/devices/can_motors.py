@@ -7,11 +7,12 @@ from robot.drivers.motors.can.models import MODELS
 from robot.errors import Problem
 from sim.devices.can_motor import CanMotor
 from sim.devices.damiao import Damiao
+from sim.devices.moteus import Moteus
 from sim.devices.robstride import RobStride
 from sim.devices.shaft import Shaft
 from sim.devices.wire import Wire
 
-EMULATED: dict[str, type[CanMotor]] = {"damiao": Damiao, "robstride": RobStride}
+EMULATED: dict[str, type[CanMotor]] = {"damiao": Damiao, "robstride": RobStride, "moteus": Moteus}
 
 
 def problems(joints: JointMap) -> list[Problem]:
@@ -40,7 +41,11 @@ def motor_on(
         heat_k_s: how fast its windings warm at full torque.
     """
     sold = joint.expected
-    return EMULATED[MODELS[joint.model].family](
+    model = MODELS[joint.model]
+    made = EMULATED[model.family](
         wire, shaft, joint.id, joint.answers_as, sold.position_rad, sold.velocity_rad_s,
         sold.torque_nm, sold.kp, sold.kd, later_s=later_s, heat_k_s=heat_k_s,
     )  # fmt: skip
+    if isinstance(made, Moteus) and model.ratio is not None:
+        made.console.settings["motor_position.rotor_to_output_ratio"] = model.ratio
+    return made

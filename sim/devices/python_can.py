@@ -27,7 +27,7 @@ class EmulatedBus(can.BusABC):
     """A program's controller on an emulated bus.
 
     Attributes:
-        socket: which carries its frames, 16 bytes each, as one of socketcan does; FD frames have 72.
+        socket: which carries its frames, 16 bytes each, as one of socketcan does; 72 of FD.
     """
 
     def __init__(

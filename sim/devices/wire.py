@@ -251,8 +251,10 @@ class Wire:
         return True
 
     def _spoilt(self, senders: list[Node]) -> bool:
-        """Whether nobody can read it: two say different things at once, one is broken, or an FD
-        frame met a controller that does not know such."""
+        """Whether nobody can read it.
+
+        Two say different things at once, one is broken, or not everybody knows FD frames.
+        """
         if senders[0].first().fd and not self.carries_fd:
             return True
         if len(senders) == 1:
@@ -287,7 +289,7 @@ class Wire:
 
     def _routable(self, sender: Node) -> bool:
         """Whether its frame arrives as it is sent, and somebody is there who hears it."""
-        if sender.garbles or len(self._routed) < 2:  # noqa: PLR2004
+        if sender.garbles or len(self._routed) < 2:
             return False
         return not sender.first().fd or self.carries_fd
 

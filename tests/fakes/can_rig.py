@@ -1,5 +1,6 @@
 """A driver of CAN motors on emulated wires, in simulated time."""
 
+import math
 from pathlib import Path
 
 import msgspec
@@ -10,7 +11,9 @@ from robot.drivers.body_sample import BodySample
 from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.can import joint_map
 from robot.drivers.motors.can.driver import CanMotors
-from robot.drivers.motors.can.joint_map import Bus, JointMap, JointMotor
+from robot.drivers.motors.can.families import FAMILIES
+from robot.drivers.motors.can.joint_map import Bus, JointMap, JointMotor, MotorRanges
+from robot.drivers.motors.can.models import MODELS
 from robot.model.description import RobotDescription
 from robot.se3 import Array
 from sim.devices.bench import Bench, build
@@ -38,6 +41,19 @@ joints:
   wrist: {bus: arm, model: RS00, id: 3, lower_rad: -1.0, upper_rad: 1.4, velocity_limit_rad_s: 10, torque_limit_nm: 7}
 """  # noqa: E501
 ROBSTRIDES_AND_A_DAMIAO = ROBSTRIDES.replace("model: RS02, id: 2", "model: DM4340, id: 1")
+MOTEUS = """\
+rate_hz: 500
+buses:
+  arm: {channel: can0, data_bitrate_hz: 5000000}
+joints:
+  shoulder: {bus: arm, model: moteus-x1, ranges: {position_rad: 12.5, velocity_rad_s: 30, torque_nm: 60}, id: 1, sign: -1, offset_rad: 0.3, lower_rad: -1.5, upper_rad: 2.0, velocity_limit_rad_s: 10, torque_limit_nm: 30}
+  elbow: {bus: arm, model: moteus-n1, ranges: {position_rad: 20, velocity_rad_s: 40, torque_nm: 20}, id: 12, gear: 2.0, lower_rad: 0.0, upper_rad: 2.4, velocity_limit_rad_s: 5, torque_limit_nm: 30}
+  wrist: {bus: arm, model: qdd100, id: 3, lower_rad: -1.0, upper_rad: 1.4, velocity_limit_rad_s: 10, torque_limit_nm: 7}
+"""  # noqa: E501
+_ELBOW = "bus: arm, model: moteus-n1, ranges: {position_rad: 20, velocity_rad_s: 40, torque_nm: 20}"
+MOTEUS_AND_A_DAMIAO = MOTEUS.replace("joints:", "  old: {channel: can1}\njoints:").replace(
+    f"{_ELBOW}, id: 12", "bus: old, model: DM4340, id: 1"
+)
 
 
 def arm(folder: Path, text: str = ARM) -> JointMap:
@@ -48,13 +64,20 @@ def arm(folder: Path, text: str = ARM) -> JointMap:
 
 
 def limbs(buses: int, joints: int, *, rate_hz: int = 500, model: str = "DM8009") -> JointMap:
-    """So many buses with so many joints each."""
+    """So many buses with so many joints each; controllers without a motor move one of 60 N m."""
+    model_ = MODELS[model]
+    fd = 5_000_000 if FAMILIES[model_.family].fd else 0
+    ranges = (
+        MotorRanges(position_rad=12.5, velocity_rad_s=30.0, torque_nm=60.0)
+        if math.isnan(model_.torque_nm)
+        else None
+    )
     return JointMap(
         rate_hz=rate_hz,
-        buses={f"bus{b}": Bus(channel=f"can{b}") for b in range(buses)},
+        buses={f"bus{b}": Bus(channel=f"can{b}", data_bitrate_hz=fd) for b in range(buses)},
         joints={
             f"joint{b}_{j}": JointMotor(
-                bus=f"bus{b}", model=model, id=j + 1, lower_rad=-2.0, upper_rad=2.0,
+                bus=f"bus{b}", model=model, id=j + 1, ranges=ranges, lower_rad=-2.0, upper_rad=2.0,
                 velocity_limit_rad_s=20.0, torque_limit_nm=40.0,
             )
             for b in range(buses)

@@ -6,7 +6,14 @@ import msgspec
 
 from robot.clock import Clock
 from robot.drivers.motors.can.frames import Frame
-from robot.drivers.motors.can.interview import WAITS_S, Answers, exchange, read_registers
+from robot.drivers.motors.can.interview import (
+    ANSWERS_WITHIN_S,
+    WAITS_S,
+    Answers,
+    exchange,
+    read_registers,
+    talk,
+)
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.drivers.motors.can.ports import Heard, Ports
 from robot.drivers.motors.can.replies import feedback_of, senders
@@ -15,6 +22,9 @@ from robot.errors import DriverError
 
 DAMPING_NM_S = 2.0
 """Of a motor that nobody commands any more; most take up to 5."""
+ENABLE_TRIES = 13
+"""Together 0.1 s."""
+LIMP = Target(0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def arm(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> None:
@@ -27,6 +37,9 @@ def arm(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> N
     if silent:
         text = "these motors did not take their watchdog, nothing is enabled: "
         raise DriverError(f"{text}{', '.join(silent)} (look at their bus for lost frames)")
+    if unset := _set_settings(ports, clock, joints, ranges):
+        text = "these motors did not take their settings, nothing is enabled: "
+        raise DriverError(f"{text}{', '.join(unset)} (look at their bus for lost frames)")
     clears = [
         (one.bus, one.family.clear_fault(one.id))
         for one in joints.joints.values()
@@ -98,6 +111,16 @@ def _set_watchdogs(ports: Ports, clock: Clock, joints: JointMap, timeout_s: floa
     return list(missing)
 
 
+def _set_settings(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> list[str]:
+    """What motors with a console are told before they are enabled; who did not take it."""
+    wanted = {
+        name: asking.console.wanted(most)
+        for (name, one), most in zip(joints.joints.items(), ranges, strict=True)
+        if (asking := one.family.asking) is not None and asking.console is not None
+    }
+    return talk(ports, clock, joints.joints).set(wanted)
+
+
 def _watchdog(joint: JointMotor) -> int:
     return joint.family.asking.settings.watchdog if joint.family.asking is not None else 0
 
@@ -108,14 +131,25 @@ def _units(joint: JointMotor, timeout_s: float) -> int:
 
 
 def _enable(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> dict[str, int]:
-    """The status of each after it was told to: of those that answered."""
+    """The status of each after it was told to: of those that answered.
+
+    Some take a while to start. Who is on meanwhile is told to give no torque, so that its watchdog
+    does not end that.
+    """
     status: dict[str, int] = {}
-    for wait_s in WAITS_S:
-        missing = [one for name, one in joints.joints.items() if status.get(name) != ENABLED]
-        if not missing:
+    for _ in range(ENABLE_TRIES):
+        if all(status.get(name) == ENABLED for name in joints.joints):
             break
-        frames = [(one.bus, one.family.enable(one.id)) for one in missing]
-        status |= _told_by(ports, clock, joints, ranges, frames, wait_s=wait_s)
+        frames = [
+            (
+                one.bus,
+                one.family.command(one.id, most, LIMP)
+                if status.get(name) == ENABLED
+                else one.family.enable(one.id),
+            )
+            for (name, one), most in zip(joints.joints.items(), ranges, strict=True)
+        ]
+        status |= _told_by(ports, clock, joints, ranges, frames, wait_s=ANSWERS_WITHIN_S)
     return status
 
 

@@ -25,7 +25,7 @@ def buses_in(joints: JointMap, folder: Path) -> JointMap:
             interface=INTERFACE,
             bitrate_hz=bus.bitrate_hz,
             data_bitrate_hz=bus.data_bitrate_hz,
-        )  # fmt: skip
+        )
         for index, (name, bus) in enumerate(joints.buses.items())
     }
     return msgspec.structs.replace(joints, buses=buses)

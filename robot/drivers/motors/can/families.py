@@ -9,8 +9,10 @@ from typing import NamedTuple, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from robot.drivers.motors.can import mit11, mit11_arrays, robstride
+from robot.drivers.motors.can import mit11, mit11_arrays, moteus, moteus_settings, robstride
+from robot.drivers.motors.can.console import Console
 from robot.drivers.motors.can.frames import Frame
+from robot.drivers.motors.can.moteus_arrays import ManyMoteus
 from robot.drivers.motors.can.robstride_arrays import ManyRobStrides
 from robot.drivers.motors.can.values import (
     Feedback,
@@ -35,6 +37,8 @@ class Settings(NamedTuple):
         position: at its shaft, as no range decides: a check of the range.
         torque_limit: more than this it does not give, whatever a command says.
         over_temperature: where it lets go.
+        fine_modes: others in which it may be.
+        also: what else its console's objections are about.
     """
 
     own_id: int
@@ -48,13 +52,20 @@ class Settings(NamedTuple):
     position: int | None = None
     torque_limit: int | None = None
     over_temperature: int | None = None
+    fine_modes: tuple[int, ...] = ()
+    also: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
 class Asking:
-    """Of motors that can be asked: for feedback without a command, and for registers."""
+    """Of motors that can be asked: for feedback without a command, and for registers.
+
+    Attributes:
+        console: of motors that say and take settings as text; None of others.
+    """
 
     settings: Settings
+    console: Console | None = None
     refresh: Callable[[int], Frame]
     read: Callable[[int, int], Frame]
     write: Callable[[int, int, float], Frame]
@@ -78,8 +89,9 @@ class MakesMany(Protocol):
         ...
 
 
-def never_short(motor_id: int) -> int | None:  # noqa: ARG001 - as a family has it
-    """Of families all of whose identifiers have 29 bits."""
+def never_short(_motor_id: int) -> tuple[int, ...]:
+    """Of all other families."""
+    return ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,10 +100,11 @@ class Family:
 
     Attributes:
         fd: how long its frames are, of a family that speaks CAN FD; None: classic frames.
+        widest: what its frames can say, where that is the same for all; None: whatever the ranges.
         most_id: the highest identifier of a motor.
         senders: of identifiers of 29 bits: whose feedback they are, `NOBODY`'s of others. None of a
             family whose motors each answer under an identifier of 11 bits of its own.
-        short_reply: under which identifier of 11 bits a motor answers nevertheless; None: never.
+        short_replies: under which identifiers of 11 bits a motor answers nevertheless.
         command, target: a target into a frame, and what a frame really says.
         enable, disable, clear_fault, set_zero: by identifier; not every motor can forget a fault.
         feedback: what a reply says.
@@ -102,9 +115,10 @@ class Family:
     """
 
     fd: FdSizes | None = None
+    widest: Ranges | None = None
     most_id: int
     senders: Callable[[npt.NDArray[np.intp]], npt.NDArray[np.intp]] | None
-    short_reply: Callable[[int], int | None] = never_short
+    short_replies: Callable[[int], tuple[int, ...]] = never_short
     command: Callable[[int, Ranges, Target], Frame]
     target: Callable[[Frame, Ranges], Target]
     enable: Callable[[int], Frame]
@@ -185,10 +199,53 @@ _ROBSTRIDE = Family(
     ),
 )
 
+_MOTEUS = Family(
+    fd=FdSizes(moteus.COMMAND_BYTES, moteus.REPLY_BYTES),
+    widest=moteus.WIDEST,
+    most_id=moteus.MOST_ID,
+    senders=moteus.senders,
+    short_replies=moteus.short_replies,
+    command=moteus.command,
+    target=moteus.target,
+    enable=moteus.enable,
+    disable=moteus.disable,
+    clear_fault=moteus.disable,
+    set_zero=moteus.set_zero,
+    feedback=moteus.feedback,
+    arrays=ManyMoteus,
+    status=moteus.status,
+    asking=Asking(
+        settings=Settings(
+            own_id=moteus.OWN_ID,
+            watchdog=moteus.TIMEOUT,
+            watchdog_unit_s=moteus.TIMEOUT_UNIT_S,
+            mode=moteus.MODE,
+            right_mode=moteus.STOPPED,
+            fine_modes=moteus.FINE_MODES,
+            supply=moteus.SUPPLY,
+            version=moteus.VERSION,
+            also=(moteus.HOMED,),
+        ),
+        refresh=moteus.refresh,
+        read=moteus.read_register,
+        write=moteus.write_register,
+        reply=moteus.register_reply,
+        console=Console(
+            say=moteus.say,
+            ask=moteus.ask_console,
+            reply=moteus.console_reply,
+            looked_at=moteus_settings.LOOKED_AT,
+            wanted=moteus_settings.gains,
+            objections=moteus_settings.objections,
+        ),
+    ),
+)
+
 FAMILIES: dict[str, Family] = {
     "damiao": _MIT,
     "tmotor": replace(
         _MIT, clear_fault=None, feedback=mit11.feedback_ak, arrays=mit11_arrays.ak, asking=None
     ),
     "robstride": _ROBSTRIDE,
+    "moteus": _MOTEUS,
 }

@@ -51,5 +51,5 @@ def worst_fd_bits(data_bytes: int, *, is_extended: bool = False) -> tuple[int, i
     head, behind = 36 if is_extended else 17, 5 + 8 * data_bytes
     stuff_of_head = (head - 1) // 4
     stuff = (head + behind - 1) // 4 - stuff_of_head
-    crc = 4 + (17 if data_bytes <= 16 else 21)  # noqa: PLR2004
+    crc = 4 + (17 if data_bytes <= 16 else 21)
     return head + stuff_of_head + _ENDS, behind + stuff + crc + -(-crc // 4)

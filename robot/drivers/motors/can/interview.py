@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 
 from robot.clock import Clock
 from robot.drivers.motors.can.families import Asking, Settings
@@ -11,6 +12,7 @@ from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.drivers.motors.can.ports import Heard, Ports
 from robot.drivers.motors.can.replies import feedback_of, senders
+from robot.drivers.motors.can.spoken import Speaker, Talk
 from robot.drivers.motors.can.values import Feedback, Ranges
 
 ANSWERS_WITHIN_S = 0.008
@@ -28,12 +30,14 @@ class Answers:
         answered_as: identifiers that it answered under.
         replies: the most replies that came to one question: two of one identifier are two motors.
         feedback: its state, at its shaft; None if it did not tell.
+        settings: what its console said, by name.
     """
 
     registers: dict[int, float] = field(default_factory=dict[int, float])
     answered_as: set[int] = field(default_factory=set[int])
     replies: int = 0
     feedback: Feedback | None = None
+    settings: dict[str, float] = field(default_factory=dict[str, float])
 
     def ranges(self, joint: JointMotor) -> Ranges | None:
         """What its frames stand for, by the map where no register says it; None: not told."""
@@ -63,8 +67,25 @@ def interview(ports: Ports, clock: Clock, joints: JointMap) -> dict[str, Answers
     for settings, some in by_settings(asked):
         for number in _looked_at(settings):
             read_registers(ports, clock, some, answers, number)
+    names = {
+        name: console.looked_at
+        for name, one in asked.items()
+        if (console := _asking(one).console) is not None and answers[name].registers
+    }
+    for name, found in talk(ports, clock, asked).settings(names).items():
+        answers[name].settings = found
     _feedback(ports, clock, asked, answers)
     return answers
+
+
+def talk(ports: Ports, clock: Clock, joints: Mapping[str, JointMotor]) -> Talk:
+    """With those of these motors that have a console."""
+    speakers = {
+        name: Speaker(one.bus, one.id, console)
+        for name, one in joints.items()
+        if one.family.asking is not None and (console := one.family.asking.console) is not None
+    }
+    return Talk(partial(exchange, ports, clock), speakers)
 
 
 def by_settings(
@@ -81,7 +102,7 @@ def _looked_at(settings: Settings) -> list[int]:
     """The registers that a start looks at."""
     numbers = (
         *(settings.ranges or ()), settings.mode, settings.watchdog, settings.version,
-        settings.over_temperature, settings.torque_limit, settings.position,
+        settings.over_temperature, settings.torque_limit, settings.position, *settings.also,
     )  # fmt: skip
     return [number for number in numbers if number is not None]
 

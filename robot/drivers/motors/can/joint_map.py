@@ -164,7 +164,7 @@ class JointMap(MotorMap, frozen=True, kw_only=True, forbid_unknown_fields=True):
         fd = family.fd and bus_load.FdPair(
             *family.fd,
             data_bitrate_hz=bus.data_bitrate_hz or bus.bitrate_hz,
-            is_reply_extended=family.short_reply(joint.id) is None,
+            is_reply_extended=not family.short_replies(joint.id),
         )
         return bus_load.pair_s(is_extended=family.is_extended, bitrate_hz=bus.bitrate_hz, fd=fd)
 
@@ -211,12 +211,24 @@ def _names(found: JointMap) -> Iterator[Wrong]:
             text = f"a {joint.model} is sold without a motor: nobody knows what it gives"
             cure = "say its ranges: {position_rad, velocity_rad_s, torque_nm} of its output"
             yield f"$.joints.{name}.model", text, cure
+        if joint.ranges is not None and joint.model in MODELS and joint.family.widest is not None:
+            yield from _too_wide(name, joint, joint.family.widest)
         if joint.is_wide and joint.reply_id:
             text = f"the replies of a {joint.model} say whose they are, under many identifiers"
             yield f"$.joints.{name}.reply_id", text, "leave reply_id out"
         if joint.model in MODELS and joint.id > (most := joint.family.most_id):
             text = f"a {joint.model} has an identifier from 1 to {most}, not {joint.id}"
             yield f"$.joints.{name}.id", text, "look it up with `humanoid motors scan`"
+
+
+def _too_wide(name: str, joint: JointMotor, widest: Ranges) -> Iterator[Wrong]:
+    """Ranges that frames cannot say, of a family whose steps are the same for all."""
+    for field, wanted, most in zip(
+        ("position_rad", "velocity_rad_s", "torque_nm"), joint.expected[:3], widest[:3], strict=True
+    ):
+        if wanted > most:
+            text = f"the frames of a {joint.model} say {most:.4g} at most"
+            yield f"$.joints.{name}.ranges.{field}", text, f"write {most:.4g} or less"
 
 
 def _mixed(found: JointMap) -> Iterator[Wrong]:

@@ -17,9 +17,10 @@ class Model(NamedTuple):
     Attributes:
         family: how it is spoken to (`robot.drivers.motors.can.families`).
         position_rad, velocity_rad_s, torque_nm: the largest its frames can say, as it is sold; the
-            torque is its peak.
+            torque is its peak, NaN of a controller that is sold without a motor.
         source: of these figures.
-        kp, kd: the largest gains that they can say.
+        kp, kd: the largest gains that they can say; of a moteus, what they are set to mean.
+        ratio: turns of its output for one of its rotor, where the motor says that as a setting.
     """
 
     family: str
@@ -29,6 +30,7 @@ class Model(NamedTuple):
     source: str
     kp: float = 500.0
     kd: float = 5.0
+    ratio: float | None = None
 
 
 _DAMIAO = "Damiao's Limit_Param table, as in damiao-motor 1.0.6"
@@ -38,6 +40,10 @@ _CLIENT = "the table of robstride-dynamics 0.0.1"
 _MANUAL = "RobStride's manuals, and robstride-dynamics 0.0.1"
 _ROBSTRIDE = "RobStride's manuals; no parameter holds it, and the maker's client differs: "
 _AK = "T-Motor, AK series module driver manual, MIT mode: ranges by model"
+_BOARD = "moteus: its motor is the buyer's, 'Hardware specifications', "
+_REVOLUTIONS, _REVOLUTIONS_S = 3.2767 * 2 * math.pi, 8.19175 * 2 * math.pi
+"""What 16 bits say of a moteus (`moteus.WIDEST`)."""
+_QDD = "mjbots, 'qdd100 beta 2' (2020): 16 N m peak, a planetary gear of 6"
 
 MODELS: dict[str, Model] = {
     "DM3507": Model("damiao", 12.566, 50, 5, _DAMIAO),
@@ -67,5 +73,18 @@ MODELS: dict[str, Model] = {
     "RS03": Model("robstride", _TWO_TURNS, 20, 60, f"{_ROBSTRIDE}50 rad/s; 33 in MIT", 5000, 100),
     "RS04": Model("robstride", _TWO_TURNS, 15, 120, _MANUAL, 5000, 100),
     "RS05": Model("robstride", _TWO_TURNS, 33, 17, _CLIENT),
+    "moteus-c1": Model(
+        "moteus", _REVOLUTIONS, _REVOLUTIONS_S, math.nan, f"{_BOARD}20 A peak, 51 V"
+    ),
+    "moteus-r4": Model(
+        "moteus", _REVOLUTIONS, _REVOLUTIONS_S, math.nan, f"{_BOARD}100 A peak, 44 V"
+    ),
+    "moteus-n1": Model(
+        "moteus", _REVOLUTIONS, _REVOLUTIONS_S, math.nan, f"{_BOARD}100 A peak, 54 V"
+    ),
+    "moteus-x1": Model(
+        "moteus", _REVOLUTIONS, _REVOLUTIONS_S, math.nan, f"{_BOARD}120 A peak, 54 V"
+    ),
+    "qdd100": Model("moteus", _REVOLUTIONS, _REVOLUTIONS_S, 16, _QDD, ratio=1 / 6),
     "RS06": Model("robstride", _TWO_TURNS, 20, 60, _CLIENT, 5000, 100),
 }

@@ -68,7 +68,7 @@ class Reception:
             whose = one.family.senders
             number = 0 if whose is None else block * (1 + self._wide.index(whose))
             self._by_key[number + self._first_key[one.bus] + one.answers_as] = index
-            if (short := one.family.short_reply(one.id)) is not None:
+            for short in one.family.short_replies(one.id):
                 self._by_key[self._first_key[one.bus] + short] = index
         self._jumps = Jumps(np.array([one.velocity_rad_s for one in ranges]))
 

@@ -23,7 +23,7 @@ def senders(joints: Mapping[str, JointMotor]) -> Callable[[Heard], str]:
     short |= {
         (one.bus, number): name
         for name, one in joints.items()
-        if (number := one.family.short_reply(one.id)) is not None
+        for number in one.family.short_replies(one.id)
     }
     wide = {(one.bus, one.answers_as): name for name, one in joints.items() if one.is_wide}
     read = {one.family.senders for one in joints.values()}

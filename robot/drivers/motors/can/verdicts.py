@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
+from robot.drivers.motors.can.console import Needs
 from robot.drivers.motors.can.families import Asking
 from robot.drivers.motors.can.interview import Answers
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
+from robot.drivers.motors.can.models import MODELS
 from robot.drivers.motors.can.watching import LOST
 from robot.drivers.motors.findings import Finding, Said, findings
 from robot.drivers.motors.mounting import misplaced
@@ -44,6 +46,8 @@ def _of_one(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[Said
         text = f"{where} answers under {others}, and not under {joint.answers_as}"
         yield "reply_id", text, f"write reply_id: {others} into the map, or change it there", True
     yield from _registers(joint, asking, answer)
+    if asking.console is not None:
+        yield from asking.console.objections(answer.registers, answer.settings, _needs(joint))
     yield from _scale(joint, asking, answer)
     yield from _state(joint, answer)
 
@@ -61,7 +65,7 @@ def _registers(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[S
             cure = f"write {wanted:g} into the register, or its ranges into the map"
             yield "wrong_range", text, cure, True
     mode = values.get(settings.mode)
-    if mode is not None and int(mode) != settings.right_mode:
+    if mode is not None and int(mode) not in (settings.right_mode, *settings.fine_modes):
         text = f"it is in mode {int(mode)}, and must be in {settings.right_mode}"
         cure = f"write {settings.right_mode} into register {settings.mode}"
         yield "wrong_mode", text, cure, True
@@ -71,6 +75,18 @@ def _registers(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[S
     if hot_c is not None and hot_c < joint.over_temperature_c:
         text = f"it lets go at {hot_c:g} °C, before the map's {joint.over_temperature_c:g}"
         yield "trips_early", text, f"set over_temperature_c under {hot_c:g} in the map", False
+
+
+def _needs(joint: JointMotor) -> Needs:
+    """What a joint needs of its motor."""
+    ends = sorted((joint.motor_rad(joint.lower_rad), joint.motor_rad(joint.upper_rad)))
+    return Needs(
+        lower_rad=ends[0],
+        upper_rad=ends[1],
+        velocity_rad_s=joint.velocity_limit_rad_s * joint.gear,
+        over_temperature_c=joint.over_temperature_c,
+        ratio=MODELS[joint.model].ratio,
+    )
 
 
 def _weak(joint: JointMotor, limit_nm: float | None, register: int) -> Iterator[Said]:

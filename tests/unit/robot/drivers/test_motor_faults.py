@@ -14,8 +14,10 @@ import pytest
 
 from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.dynamixel.joint_map import JointServo, Port, ServoMap
+from sim.devices import moteus
 from sim.devices.can_motor import CanMotor
 from sim.devices.damiao import Damiao
+from sim.devices.moteus import Moteus
 from sim.devices.robstride import RESET, RUN, RobStride
 from sim.devices.shaft import FreeShaft
 from tests.fakes import can_rig, dynamixel_rig
@@ -34,6 +36,11 @@ def can() -> can_rig.Rig:
 def robstrides() -> can_rig.Rig:
     """The same with RobStrides."""
     return can_rig.Rig(can_rig.limbs(2, 2, model="RS03"))
+
+
+def moteuses() -> can_rig.Rig:
+    """The same with moteus, over CAN FD."""
+    return can_rig.Rig(can_rig.limbs(2, 2, model="moteus-x1"))
 
 
 def servos() -> dynamixel_rig.Rig:
@@ -101,7 +108,10 @@ def has_a_twin(rig: AnyRig) -> None:
         one.wire, FreeShaft(q_rad=one.shaft.q_rad), one.motor_id, one.reply_id, one.position_rad,
         one.velocity_rad_s, one.torque_nm, one.kp, one.kd, later_s=8e-4,
     )  # fmt: skip
-    setattr(twin, *(("mode", RUN) if isinstance(twin, RobStride) else ("status", 1)))
+    if isinstance(twin, Moteus):
+        twin.mode, twin.console.settings = moteus.POSITION, dict(one.console.settings)
+    else:
+        setattr(twin, *(("mode", RUN) if isinstance(twin, RobStride) else ("status", 1)))
 
 
 def stands_still(rig: AnyRig) -> None:
@@ -160,6 +170,23 @@ FAULTS = [
     latched("rs_adapter_unplugged", robstrides, goes_away, "unplugged", 1, "bus0"),
     Fault("rs_twin_plugged_in", robstrides, has_a_twin, "duplicate_id", Level.HOLD, 4),
     Fault("rs_warm", robstrides, warms, "warm", Level.DERATE, 1),
+    Fault("moteus_three_losses", moteuses, sets("trouble.loses", 5), "silent", Level.HOLD, 3),
+    latched("moteus_silent_joint", moteuses, sets("trouble.silent", True), "silent", 10),
+    Fault("moteus_tells_no_state", moteuses, sets("is_blind", True), "silent", Level.HOLD, 3),
+    latched("moteus_motor_driver", moteuses, sets("trouble.status", 33), "motor_driver", 2),
+    latched("moteus_encoder", moteuses, sets("trouble.status", 35), "encoder", 2),
+    latched("moteus_winding_at_its_limit", moteuses, sets("winding_c", 101.0), "over_temperature",
+            2),
+    latched("moteus_board_at_its_limit", moteuses, sets("driver_c", 76.0), "over_temperature", 2),
+    latched("moteus_undervoltage", moteuses, sets("volts", 9.0), "under_voltage", 2),
+    latched("moteus_overvoltage", moteuses, sets("volts", 47.0), "over_voltage", 2),
+    latched("moteus_off_and_on_again", moteuses, lambda rig: motor_of(rig).reboot(), "disabled", 2),
+    latched("moteus_watchdog_expired", moteuses, stands_still, "lost_communication", 2),
+    latched("moteus_encoder_jump", moteuses, jumps, "encoder_jump", 3),
+    latched("moteus_bus_off", moteuses, goes_off, "bus_off", 20, "bus0"),
+    latched("moteus_adapter_unplugged", moteuses, goes_away, "unplugged", 1, "bus0"),
+    Fault("moteus_twin_plugged_in", moteuses, has_a_twin, "duplicate_id", Level.HOLD, 4),
+    Fault("moteus_warm", moteuses, warms, "warm", Level.DERATE, 1),
     Fault("servo_three_losses", servos, sets("trouble.spoils", 5), "silent", Level.HOLD, 3),
     latched("servo_silent", servos, sets("trouble.silent", True), "silent", 6),
     latched("servo_undervoltage", servos, sets("volts", 9.0), "input_voltage", 4),
@@ -255,12 +282,15 @@ def heal(rig: AnyRig) -> None:
         motor.volts, motor.driver_c, motor.status = 24.0, 30.0, 0
     elif isinstance(motor, RobStride):
         motor.volts, motor.faults, motor.mode = 24.0, 0, RESET
+    elif isinstance(motor, Moteus):
+        motor.volts, motor.driver_c, motor.is_blind = 24.0, 30.0, False
+        motor.reboot()
     else:
         motor.volts = motor.kind.volts
         motor.reboot()
 
 
-@pytest.mark.parametrize("make", [can, robstrides, servos])
+@pytest.mark.parametrize("make", [can, robstrides, moteuses, servos])
 def test_losses_that_end_let_joints_go_on_where_they_are_sent(make):
     rig = make()
     with rig.driver as driver:
@@ -275,7 +305,7 @@ def test_losses_that_end_let_joints_go_on_where_they_are_sent(make):
         assert not sent.alarms
 
 
-@pytest.mark.parametrize("make", [can, robstrides, servos])
+@pytest.mark.parametrize("make", [can, robstrides, moteuses, servos])
 def test_at_hold_nothing_new_is_obeyed_and_at_sit_commands_pass_to_what_is_left(make):
     rig = make()
     well = 3  # a joint on the other bus or port

@@ -60,6 +60,26 @@ def rig_on_robstrides(robot, tmp_path):
     return Lockstep(plant, msgspec.structs.replace(found, joints=joints), tmp_path)
 
 
+@pytest.fixture
+def rig_on_moteus(robot, tmp_path):
+    """Juno's legs on moteus over CAN FD, the rest on Damiaos as proposed."""
+    found = joint_map.beside(robot)
+    legs = {"left_leg", "right_leg", "feet"}
+    output = MotorRanges(position_rad=12.5, velocity_rad_s=25.0, torque_nm=140.0)
+    joints = {
+        name: msgspec.structs.replace(one, model="moteus-x1", ranges=output)
+        if one.bus in legs
+        else one
+        for name, one in found.joints.items()
+    }
+    buses = {
+        name: msgspec.structs.replace(bus, data_bitrate_hz=5_000_000) if name in legs else bus
+        for name, bus in found.buses.items()
+    }
+    plant = Plant(world.load("empty"), robot, seed=0, noisy=False)
+    return Lockstep(plant, msgspec.structs.replace(found, buses=buses, joints=joints), tmp_path)
+
+
 def holding(robot, now_s: float) -> MotorCommand:
     motors = list(robot.motors.values())
     q, zero = np.array(robot.posture("nominal")), np.zeros(len(motors))
@@ -131,7 +151,7 @@ def test_without_commands_motors_let_go_by_their_own_watchdogs(robot, rig):
         driver._is_armed = False  # it was killed
 
 
-@pytest.mark.parametrize("motors", ["rig", "rig_on_robstrides"])
+@pytest.mark.parametrize("motors", ["rig", "rig_on_robstrides", "rig_on_moteus"])
 def test_the_controller_walks_by_frames_alone(robot, motors: str, request):
     rig = request.getfixturevalue(motors)
     loop = ControlLoop(robot)
