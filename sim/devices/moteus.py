@@ -250,8 +250,8 @@ class Moteus(CanMotor):
     def _in_force(self) -> Order:
         """Its target moves on at the velocity of the command; after a timeout it brakes."""
         if self.mode == TIMEOUT:
-            kd = self.console["servo.pid_position.kd"] / TURN * self.command[0x24]
-            return Order(kd=kd)
+            share = 1.0 if self._in_position is None else self._in_position[0x24]
+            return Order(kd=self.console["servo.pid_position.kd"] / TURN * share)
         if self.mode != POSITION:
             return LET_GO
         order = self._ordered
