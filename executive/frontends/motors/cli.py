@@ -37,14 +37,16 @@ def scan(options: Scan) -> None:
 
       humanoid motors scan --channel can0 --channel can1
 
+      humanoid motors scan --channel can2 --data-bitrate 5000000
+
       humanoid motors scan --map my_arm/can.yaml
 
       humanoid motors scan --emulated --fail left_knee=twin
 
       humanoid motors scan --map robot/model/juno/dynamixel.yaml --emulated
 
-    Damiao's and RobStride's motors and Dynamixel servos are found. Exit status 1 where nobody
-    answers, or two answer as one.
+    Motors of Damiao and RobStride, moteus and Dynamixel servos are found. Exit status 1 where
+    nobody answers, or two answer as one.
     """
     from executive.frontends.motors import commands
 

@@ -31,7 +31,7 @@ def scan(asked: Scan) -> int:
         DriverError: if one of them cannot be opened.
     """
     if asked.channel:
-        buses = can_tools.nameless(asked.channel, asked.interface)
+        buses = can_tools.nameless(asked.channel, asked.interface, asked.data_bitrate_hz)
         return _scanned(buses, asked, label="")
     with _joints(asked) as (joints, label):
         return _scanned(joints, asked, label=label)

@@ -48,6 +48,16 @@ class Scan(OfMap):
     interface: Annotated[str, typer.Option("--interface", help="Of python-can, for --channel.")] = (
         "socketcan"
     )
+    data_bitrate_hz: Annotated[
+        int,
+        typer.Option(
+            "--data-bitrate",
+            min=0,
+            max=8_000_000,
+            metavar="BIT/S",
+            help="For --channel: a bus of CAN FD, with this rate for data (moteus: 5000000).",
+        ),
+    ] = 0
     up_to: Annotated[
         int, typer.Option("--up-to", min=1, max=0x7FE, help="The largest identifier asked for.")
     ] = 127

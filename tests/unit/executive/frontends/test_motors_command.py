@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from executive.frontends.cli import app
 from robot.errors import ConfigError, DriverError
-from tests.fakes.can_rig import ARM
+from tests.fakes.can_rig import ARM, MOTEUS
 
 CROWDED = ARM.replace("rate_hz: 500", "rate_hz: 1000")
 
@@ -77,6 +77,40 @@ def test_scan_read_and_watch_tell_who_is_there_and_what_they_measure(file):
     assert watched.exit_code == 0, watched.output
     assert "shoulder" in watched.stdout  # how often, the machine decides: its clock is the real one
     assert "all is well (emulated)" in watched.stdout
+
+
+@pytest.mark.live
+def test_every_command_knows_moteus_on_a_bus_of_can_fd(tmp_path):
+    file = tmp_path / "arm.yaml"
+    file.write_text(MOTEUS)
+    scanned = motors("scan", "--map", file, "--emulated", "--up-to", 20, "--json")
+    assert scanned.exit_code == 0, scanned.output
+    found = json.loads(scanned.stdout)["motors"]
+    assert [(one["joint"], one["id"], one["version"]) for one in found] == [
+        ("shoulder", 1, 0x010B), ("wrist", 3, 0x010B), ("elbow", 12, 0x010B),
+    ]  # fmt: skip
+    checked = motors("check", "--map", file, "--emulated", "--for", 1)
+    assert checked.exit_code == 0, checked.output
+    assert "All 3 motors are what the map says (emulated)." in checked.stdout
+    assert "33%" in checked.stdout  # 211 µs of two joints and 234 of one, 500 times a second
+    read = motors("read", "--map", file, "--emulated", "--json")
+    told = json.loads(read.stdout)["joints"][2]
+    assert (told["status"], told["supply_v"], told["driver_c"]) == ("disabled", 24.0, 25.0)
+    watched = motors("watch", "--map", file, "--emulated", "--for", 0.5, "--every", 0.1)
+    assert "all is well (emulated)" in watched.stdout, watched.output
+    moved = motors("jog", "elbow", "--by", 0.2, "--map", file, "--emulated", "--json")
+    assert moved.exit_code == 0, moved.output
+    jog = json.loads(moved.stdout)["jog"]
+    assert jog["to_rad"] - jog["from_rad"] == pytest.approx(0.2, abs=0.06)
+    zeroed = motors("zero", "wrist", "--at", 0.5, "--in-motor", "--map", file, "--emulated")
+    assert "Write offset_rad: 0.5000 at wrist" in zeroed.stdout, zeroed.output
+
+
+def test_a_bus_of_can_fd_that_is_not_there_is_set_up_with_both_rates():
+    result = motors("scan", "--channel", "nocan7", "--data-bitrate", 5_000_000)
+    assert isinstance(result.exception, DriverError)
+    told = "ip link set nocan7 up type can bitrate 1000000 dbitrate 5000000 fd on"
+    assert told in str(result.exception)
 
 
 @pytest.mark.live
