@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from robot.model import identified
 from robot.model.description import RobotDescription
 from robot.se3 import SE3, Array, Quaternion, Vector3
 from sim.realities import Body, Imu, Joints, Profile, Range
@@ -42,6 +43,7 @@ class JointFlaws(NamedTuple):
         strength: torque given for torque asked.
         no_load_rad_s: the speed at which no torque is left.
         delay_s: from a measurement to its torque.
+        viscous_nm_s: friction that grows with speed.
     """
 
     offset: Array
@@ -53,6 +55,7 @@ class JointFlaws(NamedTuple):
     strength: Array
     no_load_rad_s: Array
     delay_s: float
+    viscous_nm_s: Array
 
 
 class ForceFlaws(NamedTuple):
@@ -73,7 +76,13 @@ class Flaws(NamedTuple):
 def draw(
     profile: Profile, model: mujoco.MjModel, robot: RobotDescription, rng: np.random.Generator
 ) -> Flaws:
-    """What is wrong with the senses and the motors of one robot."""
+    """What is wrong with the senses and the motors of one robot.
+
+    What was measured of a joint (`robot.model.identified`) is so, and is not drawn.
+
+    Raises:
+        ConfigError: what was measured says what cannot be meant.
+    """
     sensors = 2 + len(robot.hands)
     sigma = np.array([profile.forces.offset_n] * 3 + [profile.forces.offset_nm] * 3)
     drift = np.array([profile.forces.drift_n_rts] * 3 + [0.0] * 3)
@@ -110,7 +119,7 @@ def _joints(
     fastest = np.array([motor.velocity_limit_rad_s for motor in motors])
     step_rad = 2.0 * math.pi / 2.0**joints.encoder_bits if joints.encoder_bits else 0.0
     share = joints.no_load_speed_share
-    return JointFlaws(
+    found = JointFlaws(
         offset=lever * joints.encoder_offset_rad * rng.standard_normal(n),
         step=lever * step_rad,
         play=lever * np.radians(_each(joints.backlash_deg, n, rng)),
@@ -120,7 +129,21 @@ def _joints(
         strength=_each(joints.strength, n, rng),
         no_load_rad_s=fastest * share if share else np.full(n, NO_END_RAD_S),
         delay_s=float(rng.uniform(*joints.delay_ms)) / 1000.0,
+        viscous_nm_s=np.zeros(n),
     )
+    return _as_measured(found, robot)
+
+
+def _as_measured(drawn: JointFlaws, robot: RobotDescription) -> JointFlaws:
+    """What was measured in the place of what was drawn; the delay is one for all: their mean."""
+    measured = identified.beside(robot)
+    rows = [(k, measured[name]) for k, name in enumerate(robot.motor_names) if name in measured]
+    if not rows:
+        return drawn
+    for k, joint in rows:
+        drawn.friction_nm[k], drawn.viscous_nm_s[k] = joint.friction_nm, joint.viscous_nm_s
+        drawn.play[k] = joint.backlash_rad
+    return drawn._replace(delay_s=float(np.mean([joint.delay_s for _, joint in rows])))
 
 
 def slides(model: mujoco.MjModel, robot: RobotDescription) -> NDArray[np.bool_]:

@@ -140,6 +140,7 @@ class Plant:
         self.motors.spoil(joints, fastest)
         self.delay(joints.delay_s)
         self.model.dof_frictionloss[self.motors.qd_index] += joints.friction_nm
+        self.model.dof_damping[self.motors.qd_index] += joints.viscous_nm_s
         self.sending.spoil(self.profile.lidar, self.profile.camera)
         self._tires = True
 

@@ -14,8 +14,11 @@ from sim.devices.can_motors import motor_on
 from sim.devices.flaws import unknown
 from sim.devices.shaft import FreeShaft
 from sim.devices.wire import Wire
+from sim.devices.worn_shaft import WornShaft
 
 LATER_S = 30e-6
+WORN = "worn"
+"""A flaw of the shaft and not of the motor: friction, play, and a motor that obeys late."""
 SWING_RAD_S = 0.4
 
 
@@ -75,8 +78,9 @@ def build(
     others: list[CanMotor] = []
     swing_rad_s = 0.0 if is_still else SWING_RAD_S
     for name, joint in wanted.joints.items():
-        motors[name] = _motor(joint, wires[joint.bus], swing_rad_s)
-        if (flaw := flaws.get(name)) is not None:
+        flaw = flaws.get(name)
+        motors[name] = _motor(joint, wires[joint.bus], swing_rad_s, is_worn=flaw == WORN)
+        if flaw is not None and flaw != WORN:
             motors[name].suffer(cast("Flaw", flaw))
             if flaw == "twin":
                 twin = _motor(joint, wires[joint.bus], swing_rad_s, ahead_rad=0.1, later_s=LATER_S)
@@ -91,14 +95,21 @@ def _motor(
     *,
     ahead_rad: float = 0.0,
     later_s: float = 0.0,
+    is_worn: bool = False,
 ) -> CanMotor:
     middle_rad = joint.motor_rad(0.5 * (joint.lower_rad + joint.upper_rad))
-    shaft = FreeShaft(q_rad=middle_rad + ahead_rad, spring_nm_rad=0.3)
-    shaft.qd_rad_s = swing_rad_s
+    if is_worn:
+        shaft = WornShaft(
+            q_rad=middle_rad, inertia_kg_m2=0.02, worn_nm=0.2, viscous_nm_s=0.1, play_rad=0.004,
+            late_s=0.005, spring_nm_rad=0.3,
+        )  # fmt: skip
+    else:
+        shaft = FreeShaft(q_rad=middle_rad + ahead_rad, spring_nm_rad=0.3)
+        shaft.qd_rad_s = swing_rad_s
     return motor_on(joint, wire, shaft, later_s=later_s)
 
 
 def _check(wanted: JointMap, flaws: Mapping[str, str]) -> None:
-    wrong = unknown(flaws, joints=wanted.joints, known=FLAWS) + can_motors.problems(wanted)
+    wrong = unknown(flaws, joints=wanted.joints, known=(*FLAWS, WORN)) + can_motors.problems(wanted)
     if wrong:
         raise ConfigError(wrong)

@@ -6,6 +6,7 @@ import typer
 
 from executive.frontends.motors.options import (
     Check,
+    Identify,
     Jog,
     Log,
     OfMap,
@@ -19,7 +20,8 @@ from executive.frontends.options import takes
 
 app = typer.Typer(
     no_args_is_help=True,
-    help="Look at real CAN motors and Dynamixel servos, or at emulated ones. Only jog enables one.",
+    help="Look at real CAN motors and Dynamixel servos, or at emulated ones. "
+    "Only jog and identify enable one.",
 )
 
 
@@ -167,6 +169,29 @@ def jog(options: Jog) -> None:
     from executive.frontends.motors import commands
 
     raise typer.Exit(commands.jog(options))
+
+
+@app.command()
+@takes(Identify)
+def identify(options: Identify) -> None:
+    """Measure friction, delay and backlash of one joint, by moving it to and fro for a minute.
+
+    Hold the robot up, with 0.25 rad free on both sides: the motor lets go at the end. Ctrl-C ends
+    it, and it lets go. What is found is written for simulations, which read it but in ideal.
+
+    [bold]Examples[/bold]
+
+      humanoid motors identify left_knee --map my_robot/can.yaml
+
+      humanoid motors identify elbow --torque 0.5 --map my_arm/can.yaml --to elbow.yaml
+
+      humanoid motors identify left_knee --emulated --fail left_knee=worn
+
+    Exit status 3 where its motor has a fault, or too little was seen.
+    """
+    from executive.frontends.motors import commands
+
+    raise typer.Exit(commands.identify(options))
 
 
 @app.command("simulate-failsafe")

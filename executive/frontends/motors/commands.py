@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from pathlib import Path
 
 from rich.console import Group
 from rich.live import Live
@@ -11,10 +12,19 @@ from rich.text import Text
 
 from executive.frontends.composition_root import REALITY
 from executive.frontends.motors import tables
-from executive.frontends.motors.options import Check, Jog, Log, OfMap, Scan, Watch, Zero
+from executive.frontends.motors.options import (
+    Check,
+    Identify,
+    Jog,
+    Log,
+    OfMap,
+    Scan,
+    Watch,
+    Zero,
+)
 from executive.frontends.new_files import refuse_taken
 from executive.frontends.output import say, table_screen, write_json
-from robot.bringup import can_tools, motor_bench, motor_log, motor_tools
+from robot.bringup import can_tools, motor_bench, motor_identify, motor_log, motor_tools
 from robot.bringup.end_wish import EndWish
 from robot.bringup.motor_reports import Check as Checked
 from robot.bringup.motor_reports import Seen, Watched
@@ -22,6 +32,7 @@ from robot.bringup.motor_tools import Joints
 from robot.clock import WallClock
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
+from robot.model import identified
 
 
 def scan(asked: Scan) -> int:
@@ -220,6 +231,53 @@ def _tell_of_jog(moved: motor_bench.Jogged, *, emulated: bool, as_json: bool) ->
     say(f"{moved.joint} went from {way}; at most {moved.most_nm:.2f} of {moved.limit_nm:.2f} N m.")
     say("Its motor has let go.")
     return ExitStatus.DONE if is_there else ExitStatus.FAILED
+
+
+def identify(asked: Identify) -> int:
+    """Measure what a joint is like; returns the exit status.
+
+    Raises:
+        DriverError: if its motor cannot be enabled, was not seen to let go, or told too little.
+        ConfigError: it has no room, or what is found cannot be written.
+    """
+    clock = WallClock()
+    with EndWish(clock) as wish, _joints(asked, is_still=True) as (joints, label):
+        motor_bench.only(joints, asked.joint)
+        if not asked.as_json:
+            say(f"Moving {asked.joint} to and fro{label}; Ctrl-C stops it.")
+        found = motor_identify.identify(
+            joints, asked.joint, clock, torque_share=asked.torque, wish=wish
+        )
+    path = asked.to
+    if path is None and not label:
+        path = motor_tools.map_path(asked.robot, asked.map_file).with_name(identified.FILE)
+    if path is not None:
+        _keep(path, found)
+    if asked.as_json:
+        write_json({"emulated": bool(label), "file": path and str(path), "identified": found})
+        return ExitStatus.DONE
+    say(
+        f"{found.joint}: friction {found.friction_nm:.3f} N m, {found.viscous_nm_s:.3f} a rad/s, "
+        f"delay {1000 * found.delay_s:.2f} ms, backlash {1000 * found.backlash_rad:.2f} mrad, "
+        f"inertia {found.inertia_kg_m2:.4f} kg m²."
+    )
+    say(f"Its motor has let go. {f'It is in {path}.' if path else 'Nothing is written.'}")
+    return ExitStatus.DONE
+
+
+def _keep(path: Path, found: motor_identify.Identified) -> None:
+    joint = identified.Joint(
+        friction_nm=max(0.0, found.friction_nm),
+        viscous_nm_s=max(0.0, found.viscous_nm_s),
+        delay_s=max(0.0, found.delay_s),
+        backlash_rad=max(0.0, found.backlash_rad),
+    )
+    try:
+        identified.write(path, {found.joint: joint})
+    except OSError as error:
+        cure = "choose another place with --to"
+        text = f"it cannot be written: {error.strerror}"
+        raise ConfigError([Problem(text, str(path), suggestion=cure)]) from None
 
 
 @contextmanager

@@ -130,6 +130,24 @@ class Jog(OfMap):
     ] = 0.2
 
 
+@dataclass(frozen=True, kw_only=True)
+class Identify(OfMap):
+    """What a joint is like."""
+
+    joint: Joint
+    torque: Annotated[
+        float,
+        typer.Option("--torque", min=0.05, max=1.0, help="Share of its torque limit."),
+    ] = 0.3
+    to: Annotated[
+        Path | None,
+        typer.Option(
+            "--to",
+            help="Written there (default: identified.yaml beside the map; nothing if emulated).",
+        ),
+    ] = None
+
+
 class Loss(StrEnum):
     """What happens in a trial of the bus owner."""
 
