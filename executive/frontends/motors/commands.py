@@ -257,9 +257,10 @@ def identify(asked: Identify) -> int:
         write_json({"emulated": bool(label), "file": path and str(path), "identified": found})
         return ExitStatus.DONE
     say(
-        f"{found.joint}: friction {found.friction_nm:.3f} N m, {found.viscous_nm_s:.3f} a rad/s, "
-        f"delay {1000 * found.delay_s:.2f} ms, backlash {1000 * found.backlash_rad:.2f} mrad, "
-        f"inertia {found.inertia_kg_m2:.4f} kg m²."
+        f"{found.joint}: friction {found.friction_nm:.3f} ± {found.friction_error_nm:.3f} N m, "
+        f"{found.viscous_nm_s:.3f} more a rad/s; delay {1000 * found.delay_s:.2f} ± "
+        f"{1000 * found.delay_error_s:.2f} ms; backlash {1000 * found.backlash_rad:.2f} ± "
+        f"{1000 * found.backlash_error_rad:.2f} mrad; inertia {found.inertia_kg_m2:.4f} kg m²."
     )
     say(f"Its motor has let go. {f'It is in {path}.' if path else 'Nothing is written.'}")
     return ExitStatus.DONE

@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 
 from executive.frontends.cli import app
 from robot.errors import ConfigError, DriverError
+from robot.model import identified
 from tests.fakes.can_rig import ARM, MOTEUS
 
 CROWDED = ARM.replace("rate_hz: 500", "rate_hz: 1000")
@@ -209,3 +210,31 @@ def test_the_map_that_is_shipped_is_for_every_motor_of_juno():
     for name, motor in juno.motors.items():
         assert found.joints[name].torque_limit_nm == motor.torque_limit_nm
         assert found.joints[name].velocity_limit_rad_s == motor.velocity_limit_rad_s
+
+
+@pytest.mark.live
+def test_identify_says_what_a_worn_joint_is_like_and_writes_it_only_where_it_is_told(
+    file, tmp_path
+):
+    words = ("identify", "shoulder", "--map", file, "--emulated", "--fail", "shoulder=worn")
+    kept = tmp_path / "found.yaml"
+    result = motors(*words, "--to", kept, "--json")
+    assert result.exit_code == 0, result.output
+    told = json.loads(result.stdout)
+    assert told["emulated"] is True
+    found = told["identified"]
+    assert found["friction_nm"] == pytest.approx(0.2, rel=0.25)
+    assert found["backlash_rad"] == pytest.approx(0.004, rel=0.25)
+    assert found["delay_s"] == pytest.approx(0.005, abs=0.0015)
+    (joint,) = identified.read(kept).values()
+    assert joint.friction_nm == pytest.approx(found["friction_nm"], rel=1e-4)
+    assert not file.with_name(identified.FILE).exists()
+
+
+def test_identify_refuses_servos_and_joints_that_there_are_not(file):
+    result = motors("identify", "elbwo", "--map", file, "--emulated")
+    assert "did you mean 'elbow'" in str(result.exception)
+    servos = "robot/model/juno/dynamixel.yaml"
+    result = motors("identify", "left_elbow", "--map", servos, "--emulated")
+    assert isinstance(result.exception, ConfigError)
+    assert "identify knows motors on CAN" in str(result.exception)
