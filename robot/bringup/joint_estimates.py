@@ -108,7 +108,7 @@ def _halves(sweeps: Sequence[Sweep], speed: float) -> Array:
     if len(ways) != 2:
         return np.empty(0)
     low, high = max(q.min() for q, _ in ways), min(q.max() for q, _ in ways)
-    edges: Array = np.linspace(low, high, BINS + 1)
+    edges: Array = low + (high - low) / BINS * np.arange(BINS + 1)
     means: list[Array] = []
     for q, tau in ways:
         which = np.digitize(q, edges) - 1

@@ -9,9 +9,10 @@ middle.
 from __future__ import annotations
 
 import math
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
-from typing import NamedTuple
+from functools import partial
+from typing import NamedTuple, TypeVar
 
 import msgspec
 import numpy as np
@@ -28,6 +29,8 @@ from robot.drivers.motors.mounting import Mounted
 from robot.drivers.registry import CAN
 from robot.errors import ConfigError, DriverError, Problem
 
+T = TypeVar("T")
+
 ROOM_RAD = 0.25
 """Farther from where it stood it is let go; a joint nearer to its limits than that is not moved."""
 SWEEP_RAD, SPEEDS_RAD_S = 0.12, (0.15, 0.45)
@@ -39,8 +42,10 @@ ACCELERATION = 90.0
 """Of a burst (rad/s^2): 0.14 rad to and fro. What torque that takes the first ones show."""
 GENTLE_SHARE = 0.1
 RESTS_S = 0.4
-SILENT = "silent"
-"""At HOLD for that the last command goes on, for so short that its motor does not mind."""
+SURE_SHARE, SURE_NM, SURE_S, SURE_RAD = 0.05, 0.02, 0.0002, 0.0002
+SHORT, ODD, TRIES = "silent", "speed_mismatch", 5
+"""Alarms at HOLD that a busy computer may sound: a few lost replies, in which the last command goes
+on; and speeds that lost replies make look wrong, after which what was being done is done again."""
 STIFF_SHARE, SOFT_SHARE, BACK_SHARE = 0.5, 0.2, 0.1
 """Of what a jog is held with: a joint that obeys late must not shake."""
 
@@ -68,6 +73,18 @@ class Identified(msgspec.Struct, frozen=True, kw_only=True):
     backlash_error_rad: float
     inertia_kg_m2: float
     most_nm: float
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether standard errors are small beside what was found, or next to nothing."""
+        return all(
+            error <= max(SURE_SHARE * value, least)
+            for value, error, least in (
+                (self.friction_nm, self.friction_error_nm, SURE_NM),
+                (self.delay_s, self.delay_error_s, SURE_S),
+                (self.backlash_rad, self.backlash_error_rad, SURE_RAD),
+            )
+        )
 
 
 def identify(
@@ -130,7 +147,7 @@ def _check_room(joint: Mounted, name: str, q: float) -> None:
 
 
 def _identified(name: str, motion: _Motion) -> Identified:
-    motion.rest()
+    motion.in_tries(motion.rest)
     roughly = friction(list(motion.sweeps()))
     rubs = friction(list(motion.sweeps(roughly)))
     room_nm = motion.limit_nm - abs(rubs.weight_nm)
@@ -138,8 +155,7 @@ def _identified(name: str, motion: _Motion) -> Identified:
     for bursts in (1, BURSTS):
         reversals: list[Reversal] = []
         for _ in range(bursts):
-            motion.rest()
-            reversals += motion.burst(push_nm, rubs.weight_nm)
+            reversals += motion.in_tries(partial(motion.burst, push_nm, rubs.weight_nm))
         held = rubs._replace(pull_nm_rad=rubs.pull_nm_rad + motion.back_nm_rad)
         seen = turned(reversals, HALF_S, push_nm=push_nm, rubs=held)
         inertia = push_nm / seen.acceleration
@@ -165,6 +181,10 @@ class _Sample(NamedTuple):
     at_s: float
     q: float
     tau: float
+
+
+class _OddError(DriverError):
+    """A moment that was no good."""
 
 
 class _Motion:
@@ -202,6 +222,20 @@ class _Motion:
             while self._clock.now_s() < until_s and self._driver.alarms.level < Level.HOLD:
                 self._send(self._q, 0.0, 0.0, 0.0, DAMPING_SHARE * self._kp)
 
+    def in_tries(self, act: Callable[[], T]) -> T:
+        """Do something, and if a moment of it was no good, do it again from the middle.
+
+        Raises:
+            DriverError: as often as that it was no good, or something else is wrong.
+        """
+        for _ in range(TRIES):
+            try:
+                return act()
+            except _OddError:
+                self._driver.reset()  # its motor lets go, and is enabled anew
+                self._told_s = math.inf
+        return act()
+
     def rest(self) -> None:
         """Go to the middle, and stay there for a moment."""
         begun_s, begin = self._clock.now_s(), self._q
@@ -218,7 +252,7 @@ class _Motion:
         """
         for speed in SPEEDS_RAD_S:
             for side in (1.0, -1.0) * (SWEEPS if roughly else 1):
-                yield self._sweep(side * speed, roughly)
+                yield self.in_tries(partial(self._sweep, side * speed, roughly))
 
     def _sweep(self, speed: float, roughly: Friction | None) -> Sweep:
         """From the end that it comes from; the way there is no part of it."""
@@ -241,11 +275,12 @@ class _Motion:
         seen = [one for one in came if abs(one.q - self.middle) < EDGE_SHARE * SWEEP_RAD]
         return Sweep(speed, np.array([one.q for one in seen]), np.array([one.tau for one in seen]))
 
-    def burst(self, push_nm: float, weight_nm: float) -> Iterator[Reversal]:
-        """A torque that is turned round, and a little stiffness, so that it stays here.
+    def burst(self, push_nm: float, weight_nm: float) -> list[Reversal]:
+        """From the middle, a torque that is turned round; its first half is a half of one.
 
-        The first half is a half of one.
+        A little stiffness keeps the joint there.
         """
+        self.rest()
         begun_s, came, turns = self._clock.now_s(), list[_Sample](), list[tuple[float, float]]()
         side = 0.0
         while (passed_s := self._clock.now_s() - begun_s) < (HALVES - 0.5) * HALF_S:
@@ -257,9 +292,8 @@ class _Motion:
             if sample is not None:
                 came.append(sample)
         at_s, q = np.array([one.at_s for one in came]), np.array([one.q for one in came])
-        for turn_s, to in turns[1:]:
-            near = np.abs(at_s - turn_s) < HALF_S
-            yield Reversal(to, at_s[near] - turn_s, q[near])
+        near = [(turn_s, to, np.abs(at_s - turn_s) < HALF_S) for turn_s, to in turns[1:]]
+        return [Reversal(to, at_s[close] - turn_s, q[close]) for turn_s, to, close in near]
 
     def _step(self, q: float, qd: float, tau: float, kp: float, kd: float) -> _Sample | None:
         """One command; None if its reply was lost.
@@ -273,10 +307,12 @@ class _Motion:
         if self._clock.now_s() - self._told_s > self._driver.joints.watchdog_s:
             raise DriverError("this program stood still, so that the motor let go (try again)")
         found = self._send(q, qd, tau, kp, kd)
-        alarms = self._driver.alarms
-        grave = [one for one in alarms.on if one.level >= Level.HOLD]
-        if alarms.level > Level.HOLD or any(one.code != SILENT for one in grave):
-            raise DriverError(f"{self._name}: {grave[0].cause} ({grave[0].cure})")
+        for one in self._driver.alarms.on:
+            text = f"{self._name}: {one.cause} ({one.cure})"
+            if one.level > Level.HOLD or (one.level == Level.HOLD and one.code not in {SHORT, ODD}):
+                raise DriverError(text)
+            if one.code == ODD:
+                raise _OddError(text)
         if abs(self._q - self.middle) > ROOM_RAD:
             text = f"{self._name} went {abs(self._q - self.middle):.2f} rad away, and was let go"
             raise DriverError(f"{text} (is it free? give it less --torque)")

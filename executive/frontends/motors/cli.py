@@ -187,7 +187,8 @@ def identify(options: Identify) -> None:
 
       humanoid motors identify left_knee --emulated --fail left_knee=worn
 
-    Exit status 3 where its motor has a fault, or too little was seen.
+    Exit status 1 where what was found is not sure, 3 where its motor has a fault, or told too
+    little.
     """
     from executive.frontends.motors import commands
 

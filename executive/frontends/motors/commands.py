@@ -251,19 +251,24 @@ def identify(asked: Identify) -> int:
     path = asked.to
     if path is None and not label:
         path = motor_tools.map_path(asked.robot, asked.map_file).with_name(identified.FILE)
+    if not found.is_sure:
+        path = None
     if path is not None:
         _keep(path, found)
+    status = ExitStatus.DONE if found.is_sure else ExitStatus.FAILED
     if asked.as_json:
         write_json({"emulated": bool(label), "file": path and str(path), "identified": found})
-        return ExitStatus.DONE
+        return status
     say(
         f"{found.joint}: friction {found.friction_nm:.3f} ± {found.friction_error_nm:.3f} N m, "
         f"{found.viscous_nm_s:.3f} more a rad/s; delay {1000 * found.delay_s:.2f} ± "
         f"{1000 * found.delay_error_s:.2f} ms; backlash {1000 * found.backlash_rad:.2f} ± "
         f"{1000 * found.backlash_error_rad:.2f} mrad; inertia {found.inertia_kg_m2:.4f} kg m²."
     )
+    if not found.is_sure:
+        say("no  that is not sure enough: is the computer busy, is something loose?")
     say(f"Its motor has let go. {f'It is in {path}.' if path else 'Nothing is written.'}")
-    return ExitStatus.DONE
+    return status
 
 
 def _keep(path: Path, found: motor_identify.Identified) -> None:
