@@ -9,8 +9,9 @@ from robot.bringup.motor_tools import loads
 from robot.control.loop import BUS_PERIOD_S
 from robot.drivers.motors import servos_and_others
 from robot.drivers.motors.can import joint_map as can_map
+from robot.drivers.motors.ethernet import joint_map as drive_map
 from robot.drivers.motors.motor_map import MotorMap
-from robot.drivers.registry import CAN, MOTORS
+from robot.drivers.registry import CAN, ETHERNET, MOTORS
 from robot.errors import ConfigError, Problem
 from robot.files.misfits import nearest
 from robot.model.description import RobotDescription
@@ -35,6 +36,8 @@ def checked(robot: RobotDescription, driver: str) -> str:
         raise ConfigError([Problem(text, str(file), suggestion=cure)])
     if driver == CAN:
         return _on(can_map.beside(robot))
+    if driver == ETHERNET:
+        return _on(drive_map.beside(robot))
     servos, others = servos_and_others.maps(robot)
     said = _on(servos)
     return said if others is None else f"{said} {_on(others)}"

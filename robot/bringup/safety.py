@@ -16,6 +16,7 @@ from robot.drivers.motors import motor_map, watching
 from robot.drivers.motors.alarms import DOES, Kind, Level
 from robot.drivers.motors.can import watching as can_watching
 from robot.drivers.motors.dynamixel import watching as servo_watching
+from robot.drivers.motors.ethernet import watching as board_watching
 from robot.owner import ladder
 
 Rows: TypeAlias = list[list[str]]
@@ -24,6 +25,7 @@ KINDS: dict[str, tuple[Kind, ...]] = {
     "any": watching.KINDS,
     "CAN": can_watching.KINDS,
     "Dynamixel": servo_watching.KINDS,
+    "Ethernet": board_watching.KINDS,
 }
 
 

@@ -24,7 +24,7 @@ from robot.model.description import Battery, Camera, Imu, Lidar, RobotDescriptio
 
 R = TypeVar("R")
 D_co = TypeVar("D_co", covariant=True)
-SIMULATED, CAN, DYNAMIXEL = "simulated", "can", "dynamixel"
+SIMULATED, CAN, DYNAMIXEL, ETHERNET = "simulated", "can", "dynamixel", "ethernet"
 
 
 @dataclass(frozen=True)
@@ -87,6 +87,12 @@ def _dynamixel_motors(wiring: Wiring) -> MotorBus:
     return make(wiring)
 
 
+def _ethernet_motors(wiring: Wiring) -> MotorBus:
+    from robot.drivers.motors.ethernet.driver import make
+
+    return make(wiring)
+
+
 def _simulated_imu(wiring: Wiring) -> SensorSource[ImuReading, Imu]:
     from robot.drivers.imu.simulated import make
 
@@ -136,7 +142,13 @@ def _simulated_battery(wiring: Wiring) -> SensorSource[PowerState, Battery | Non
 
 
 MOTORS = Family(
-    "motors", {SIMULATED: _simulated_motors, CAN: _can_motors, DYNAMIXEL: _dynamixel_motors}
+    "motors",
+    {
+        SIMULATED: _simulated_motors,
+        CAN: _can_motors,
+        DYNAMIXEL: _dynamixel_motors,
+        ETHERNET: _ethernet_motors,
+    },
 )
 
 # What the controller reads in every period (`robot.drivers.body_devices`).

@@ -13,13 +13,16 @@ from robot.closing import Closing
 from robot.drivers.motors.can.emulated import INTERFACE
 from robot.drivers.motors.can.ports import socket_path
 from robot.drivers.motors.dynamixel.emulated import terminal_path
+from robot.drivers.motors.ethernet.emulated import address_path
 from robot.drivers.motors.motor_map import MotorMap
-from robot.drivers.registry import CAN, DYNAMIXEL
-from sim.devices import bench, servo_bench
+from robot.drivers.registry import CAN, DYNAMIXEL, ETHERNET
+from sim.devices import bench, ethernet_bench, servo_bench
 from sim.devices.bench import Bench
+from sim.devices.ethernet_bench import EthernetBench
 from sim.devices.serial_server import SerialServer
 from sim.devices.server import CanServer
 from sim.devices.servo_bench import ServoBench
+from sim.devices.udp_server import UdpServer
 
 B = TypeVar("B")
 B_co = TypeVar("B_co", covariant=True)
@@ -73,11 +76,16 @@ def _on_terminals(paths: Sequence[Path], built: ServoBench, clock: Clock) -> Ser
     return SerialServer(list(zip(paths, built.lines.values(), strict=True)), clock)
 
 
+def _on_udp(paths: Sequence[Path], built: EthernetBench, clock: Clock) -> Server:
+    return UdpServer(list(zip(paths, built.cables.values(), strict=True)), clock)
+
+
 EMULATED: Mapping[str, EmulatedFamily[Any]] = {
     CAN: EmulatedFamily(
         build=bench.build, path=socket_path, serve=_on_sockets, interface=INTERFACE
     ),
     DYNAMIXEL: EmulatedFamily(build=servo_bench.build, path=terminal_path, serve=_on_terminals),
+    ETHERNET: EmulatedFamily(build=ethernet_bench.build, path=address_path, serve=_on_udp),
 }
 
 

@@ -18,9 +18,10 @@ from robot.drivers.simulation.shared_plant import SILENCE_S, PlantServer, Shared
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.model import description
-from tests.fakes import dynamixel_rig
+from tests.fakes import dynamixel_rig, ethernet_rig
 from tests.fakes.can_rig import CanPlant, Rig, can_map
 from tests.fakes.dynamixel_rig import ServoPlant
+from tests.fakes.ethernet_rig import EthernetPlant
 from tests.fakes.motors import FakePlant, hold
 
 ROBOT = description.load("juno")
@@ -38,7 +39,7 @@ class Device:
     driver: MotorBus
     spare: MotorBus
     clock: SimulatedClock
-    plant: FakePlant | CanPlant | ServoPlant
+    plant: FakePlant | CanPlant | ServoPlant | EthernetPlant
     period: Callable[[], None]
     step: float = 0.0
     stamps: bool = True
@@ -102,10 +103,17 @@ def on_serial_ports(tmp_path: Path) -> Device:
     return Device(*plant.drivers, rig.clock, plant, plant.play, step=0.1, stamps=False, gains=False)
 
 
+def behind_ethernet(tmp_path: Path) -> Device:
+    rig = ethernet_rig.Rig(ethernet_rig.drive_map(ROBOT))
+    plant = EthernetPlant(rig, (rig.driver, rig.another()))
+    return Device(*plant.drivers, rig.clock, plant, plant.play, step=0.1, stamps=False)
+
+
 BENCHES = {
     "simulated": (simulated_here, simulated_elsewhere, owned_elsewhere),
     "can": (on_can,),
     "dynamixel": (on_serial_ports,),
+    "ethernet": (behind_ethernet,),
 }
 
 

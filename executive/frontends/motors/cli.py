@@ -19,7 +19,7 @@ from executive.frontends.options import takes
 
 app = typer.Typer(
     no_args_is_help=True,
-    help="Look at real CAN motors and Dynamixel servos, or at emulated ones. Only jog enables one.",
+    help="Look at real motors (CAN, Dynamixel, Ethernet), or emulated ones. Only jog enables one.",
 )
 
 
@@ -43,8 +43,8 @@ def scan(options: Scan) -> None:
 
       humanoid motors scan --map robot/model/juno/dynamixel.yaml --emulated
 
-    Damiao's and RobStride's motors and Dynamixel servos are found. Exit status 1 where nobody
-    answers, or two answer as one.
+    Damiao's and RobStride's motors, Dynamixel servos and boards behind Ethernet are found. Exit
+    status 1 where nobody answers, or two answer as one.
     """
     from executive.frontends.motors import commands
 
