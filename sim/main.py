@@ -41,7 +41,7 @@ def main(run_file: str, parent_pid: str) -> None:
         if any(joints is not None for joints in found):
             buses = PlantBuses(
                 plant, found.can, config.memory, clock=clock, tell=print, servos=found.servos,
-                boards=found.boards,
+                boards=found.boards, pulses=found.pulses,
             )  # fmt: skip
             stack.enter_context(buses)
         ask_for_real_time()

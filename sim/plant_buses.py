@@ -1,7 +1,7 @@
 """Buses into a simulated body: real bytes to emulated motors that turn the plant's joints.
 
 CAN buses with their motors, serial ports with their servos, or some joints on each; or boards
-behind Ethernet.
+behind Ethernet, and hobby servos that a chip on I2C sends pulses.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import NamedTuple
 from robot.clock import Clock, SimulatedClock
 from robot.closing import Closing
 from robot.drivers.body_sample import BodySample
-from robot.drivers.motors import servos_and_others
+from robot.drivers.motors import pwm_and_others, servos_and_others
 from robot.drivers.motors.can import joint_map
 from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.can.ports import socket_path
@@ -24,7 +24,9 @@ from robot.drivers.motors.ethernet.emulated import address_path
 from robot.drivers.motors.ethernet.joint_map import DriveMap
 from robot.drivers.motors.motor_map import MotorMap
 from robot.drivers.motors.mounting import Mounted
-from robot.drivers.registry import CAN, DYNAMIXEL, ETHERNET
+from robot.drivers.motors.pwm.emulated import bus_path
+from robot.drivers.motors.pwm.joint_map import PulseMap
+from robot.drivers.registry import CAN, DYNAMIXEL, ETHERNET, PWM
 from robot.errors import ConfigError, Problem
 from robot.model.description import RobotDescription
 from sim.devices import can_motors
@@ -34,7 +36,9 @@ from sim.devices.dynamixel import Servo
 from sim.devices.ethernet_bench import cables_of
 from sim.devices.ethernet_board import Drive
 from sim.devices.ethernet_cable import Cable
+from sim.devices.i2c_server import I2cServer
 from sim.devices.joint_shafts import JointShafts
+from sim.devices.pwm_bench import bench_of
 from sim.devices.serial_line import Line
 from sim.devices.serial_server import SerialServer
 from sim.devices.server import CanServer
@@ -52,11 +56,12 @@ BIN_S, BINS = 0.0001, 100
 
 
 class Maps(NamedTuple):
-    """Whose motors are on CAN, whose are servos, whose are behind Ethernet; None: nobody's."""
+    """Who moves what: CAN, servos on serial ports, boards on Ethernet, hobby servos; or None."""
 
     can: JointMap | None = None
     servos: ServoMap | None = None
     boards: DriveMap | None = None
+    pulses: PulseMap | None = None
 
 
 def maps(robot: RobotDescription, driver: str) -> Maps:
@@ -72,6 +77,9 @@ def maps(robot: RobotDescription, driver: str) -> Maps:
         return Maps(can=joints, servos=servos)
     if driver == ETHERNET:
         return Maps(boards=drive_map.beside(robot))
+    if driver == PWM:
+        pulses, joints, boards = pwm_and_others.maps(robot)
+        return Maps(can=joints, boards=boards, pulses=pulses)
     return Maps()
 
 
@@ -98,6 +106,7 @@ class PlantBuses(Closing):
     Attributes:
         motors, servos: those on CAN and those on serial ports, in their maps' order.
         cables: to boards behind Ethernet, in their map's order.
+        pulsed: chips on I2C and their hobby servos.
         took: in how many periods all commands were there after so many tenths of a millisecond of
             wall time, the last one for whatever took longer; counted while motors are enabled.
     """
@@ -112,8 +121,9 @@ class PlantBuses(Closing):
         tell: Callable[[str], None],
         servos: ServoMap | None = None,
         boards: DriveMap | None = None,
+        pulses: PulseMap | None = None,
     ) -> None:
-        """Listen on a socket for each bus and board, and put a terminal for each port.
+        """Listen on a socket for each bus, board and chip, and put a terminal for each port.
 
         Args:
             plant: whose joints they turn.
@@ -123,12 +133,13 @@ class PlantBuses(Closing):
             tell: hears at the end how long commands took.
             servos: on serial ports, in the robot's order; None if no joint is.
             boards: behind Ethernet, in the robot's order; None if no joint is.
+            pulses: hobby servos, in the robot's order; None if there is none.
 
         Raises:
             ConfigError: a motor is not emulated, or the rate fits no physics.
             OSError: a socket or a terminal cannot be made.
         """
-        found = [one for one in (joints, servos, boards) if one is not None]
+        found = [one for one in (joints, servos, boards, pulses) if one is not None]
         for one in found:
             check(one)
         self.took = [0] * (BINS + 1)
@@ -144,6 +155,7 @@ class PlantBuses(Closing):
         self._server = self._on_can(joints, folder)
         self._serial = self._on_ports(servos, folder)
         self._net = self._on_ethernet(boards, folder)
+        self._i2c = self._on_i2c(pulses, folder)
 
     def _on_can(self, joints: JointMap | None, folder: Path) -> CanServer:
         self.motors: list[CanMotor] = []
@@ -186,6 +198,14 @@ class PlantBuses(Closing):
         paths = [address_path(folder, index) for index in range(len(self.cables))]
         return UdpServer(list(zip(paths, self.cables, strict=True)), self._time)
 
+    def _on_i2c(self, pulses: PulseMap | None, folder: Path) -> I2cServer:
+        joints = {} if pulses is None else pulses.joints
+        shafts = {name: self._body.shafts[name] for name in joints}
+        self.pulsed = bench_of(pulses, shafts, self._plant.time_s)
+        buses = self.pulsed.buses.values()
+        paths = [bus_path(folder, index) for index in range(len(buses))]
+        return I2cServer(list(zip(paths, buses, strict=True)), self.pulsed, self._time)
+
     def period(self, sample: BodySample, *, patience_s: float) -> bool:
         """Hear the controller, play the wires, and move the body; whether it was let go yet.
 
@@ -208,6 +228,8 @@ class PlantBuses(Closing):
             self._server.play(self._time.now_s())
             self._serial.play(self._time.now_s())
             self._net.play(self._time.now_s())
+            self._i2c.listen(0.0)
+            self._i2c.play(self._time.now_s())
             if body.moves:
                 plant.write(body.command(plant.time_s))
                 plant.step(SLICE_MS)
@@ -247,7 +269,8 @@ class PlantBuses(Closing):
 
     def _summary(self) -> str:
         """How long commands took, and in how many periods simulated time waited for them."""
-        kinds = {"CAN": self.motors, "Dynamixel": self.servos, "Ethernet": self.cables}
+        kinds = {"CAN": self.motors, "Dynamixel": self.servos, "Ethernet": self.cables,
+                 "PWM": self.pulsed.servos}  # fmt: skip
         name = " and ".join(kind for kind, some in kinds.items() if some)
         total, limit = sum(self.took), round(THINKS_S / BIN_S)
         if not total:
@@ -267,4 +290,5 @@ class PlantBuses(Closing):
         self._server.close()
         self._serial.close()
         self._net.close()
+        self._i2c.close()
         self._tell(self._summary())

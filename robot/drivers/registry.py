@@ -24,7 +24,7 @@ from robot.model.description import Battery, Camera, Imu, Lidar, RobotDescriptio
 
 R = TypeVar("R")
 D_co = TypeVar("D_co", covariant=True)
-SIMULATED, CAN, DYNAMIXEL, ETHERNET = "simulated", "can", "dynamixel", "ethernet"
+SIMULATED, CAN, DYNAMIXEL, ETHERNET, PWM = "simulated", "can", "dynamixel", "ethernet", "pwm"
 
 
 @dataclass(frozen=True)
@@ -93,6 +93,12 @@ def _ethernet_motors(wiring: Wiring) -> MotorBus:
     return make(wiring)
 
 
+def _hobby_servos(wiring: Wiring) -> MotorBus:
+    from robot.drivers.motors.pwm_and_others import make
+
+    return make(wiring)
+
+
 def _simulated_imu(wiring: Wiring) -> SensorSource[ImuReading, Imu]:
     from robot.drivers.imu.simulated import make
 
@@ -148,6 +154,7 @@ MOTORS = Family(
         CAN: _can_motors,
         DYNAMIXEL: _dynamixel_motors,
         ETHERNET: _ethernet_motors,
+        PWM: _hobby_servos,
     },
 )
 

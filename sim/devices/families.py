@@ -15,10 +15,13 @@ from robot.drivers.motors.can.ports import socket_path
 from robot.drivers.motors.dynamixel.emulated import terminal_path
 from robot.drivers.motors.ethernet.emulated import address_path
 from robot.drivers.motors.motor_map import MotorMap
-from robot.drivers.registry import CAN, DYNAMIXEL, ETHERNET
-from sim.devices import bench, ethernet_bench, servo_bench
+from robot.drivers.motors.pwm.emulated import bus_path
+from robot.drivers.registry import CAN, DYNAMIXEL, ETHERNET, PWM
+from sim.devices import bench, ethernet_bench, pwm_bench, servo_bench
 from sim.devices.bench import Bench
 from sim.devices.ethernet_bench import EthernetBench
+from sim.devices.i2c_server import I2cServer
+from sim.devices.pwm_bench import PwmBench
 from sim.devices.serial_server import SerialServer
 from sim.devices.server import CanServer
 from sim.devices.servo_bench import ServoBench
@@ -80,11 +83,16 @@ def _on_udp(paths: Sequence[Path], built: EthernetBench, clock: Clock) -> Server
     return UdpServer(list(zip(paths, built.cables.values(), strict=True)), clock)
 
 
+def _on_i2c(paths: Sequence[Path], built: PwmBench, clock: Clock) -> Server:
+    return I2cServer(list(zip(paths, built.buses.values(), strict=True)), built, clock)
+
+
 EMULATED: Mapping[str, EmulatedFamily[Any]] = {
     CAN: EmulatedFamily(
         build=bench.build, path=socket_path, serve=_on_sockets, interface=INTERFACE
     ),
     DYNAMIXEL: EmulatedFamily(build=servo_bench.build, path=terminal_path, serve=_on_terminals),
+    PWM: EmulatedFamily(build=pwm_bench.build, path=bus_path, serve=_on_i2c),
     ETHERNET: EmulatedFamily(build=ethernet_bench.build, path=address_path, serve=_on_udp),
 }
 

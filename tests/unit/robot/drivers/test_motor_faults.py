@@ -14,13 +14,14 @@ import pytest
 
 from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.dynamixel.joint_map import JointServo, Port, ServoMap
+from robot.drivers.motors.pwm.joint_map import Chip, JointPulse, PulseMap
 from sim.devices.can_motor import CanMotor
 from sim.devices.damiao import Damiao
 from sim.devices.robstride import RESET, RUN, RobStride
 from sim.devices.shaft import FreeShaft
-from tests.fakes import can_rig, dynamixel_rig, ethernet_rig
+from tests.fakes import can_rig, dynamixel_rig, ethernet_rig, pwm_rig
 
-AnyRig: TypeAlias = can_rig.Rig | dynamixel_rig.Rig | ethernet_rig.Rig
+AnyRig: TypeAlias = can_rig.Rig | dynamixel_rig.Rig | ethernet_rig.Rig | pwm_rig.Rig
 
 WARM_UP, AFTER = 150, 60
 WHO = "joint0_1"
@@ -60,11 +61,27 @@ def boards() -> ethernet_rig.Rig:
     return ethernet_rig.Rig(ethernet_rig.limbs(2, 2), is_still=True)
 
 
+def pulses() -> pwm_rig.Rig:
+    """A chip with two hobby servos, 50 frames a second."""
+    return pwm_rig.Rig(
+        PulseMap(
+            chips={"hat": Chip()},
+            joints={
+                f"joint0_{j}": JointPulse(
+                    chip="hat", model="DS3225", id=j, pulse_us=(500.0, 2500.0), travel_rad=3.0,
+                    lower_rad=-1.4, upper_rad=1.4, velocity_limit_rad_s=4.0, torque_limit_nm=2.0,
+                )
+                for j in range(2)
+            },
+        )
+    )  # fmt: skip
+
+
 def motors_of(rig: AnyRig) -> Mapping[str, Any]:
     """By joint, of whatever family."""
     if isinstance(rig, can_rig.Rig):
         return rig.bench.motors
-    return rig.bench.servos if isinstance(rig, dynamixel_rig.Rig) else rig.bench.drives
+    return rig.bench.drives if isinstance(rig, ethernet_rig.Rig) else rig.bench.servos
 
 
 def motor_of(rig: AnyRig):
@@ -88,6 +105,21 @@ def sets_cable(name: str, value: object) -> Callable[[AnyRig], None]:
 def loses_its_power(rig: AnyRig) -> None:
     assert isinstance(rig, ethernet_rig.Rig)
     rig.cable(WHO).board.restart(rig.clock.now_s())
+
+
+def refuses(rig: AnyRig) -> None:
+    assert isinstance(rig, pwm_rig.Rig)
+    rig.bench.buses["hat"].trouble.refuses = 5
+
+
+def chip_goes(rig: AnyRig) -> None:
+    assert isinstance(rig, pwm_rig.Rig)
+    rig.bench.chips["hat"].is_powered = False
+
+
+def browns_out(rig: AnyRig) -> None:
+    assert isinstance(rig, pwm_rig.Rig)
+    rig.bench.chips["hat"].power_up()
 
 
 def is_flooded(rig: AnyRig) -> None:
@@ -236,6 +268,9 @@ FAULTS = [
     latched("net_board_unplugged", boards, goes_away, "unplugged", 1, "board0"),
     Fault("net_flooded", boards, is_flooded, "noisy", Level.WARN, 501, "board0"),
     Fault("net_warm", boards, warms, "warm", Level.DERATE, 1),
+    Fault("pwm_refused_writes", pulses, refuses, "i2c_refused", Level.HOLD, 45, "hat"),
+    latched("pwm_chip_gone", pulses, chip_goes, "i2c_refused", 115, "hat"),
+    latched("pwm_chip_without_power", pulses, browns_out, "restarted", 115, "hat"),
 ]  # fmt: skip
 
 
@@ -284,6 +319,8 @@ def test_a_fault_is_named_at_its_level_in_time_and_no_motor_gives_more_than_it_m
         assert at_work.worst <= 1.01
         assert np.isfinite(driver.write(rig.hold(0.3)).tau_ff).all()
         driver.read()
+        if isinstance(rig, pwm_rig.Rig):
+            heal(rig)  # a chip that does not answer is not seen to let go, which is an error
 
 
 @pytest.mark.parametrize(
@@ -307,6 +344,10 @@ def test_what_is_latched_stays_when_its_cause_has_gone_and_ends_by_a_reset(fault
 
 def heal(rig: AnyRig) -> None:
     """As a person does it who found the cause: it is gone, and the motor was off and on again."""
+    if isinstance(rig, pwm_rig.Rig):
+        rig.bench.chips["hat"].is_powered = True
+        rig.bench.chips["hat"].power_up()
+        return
     motor = motor_of(rig)
     motor.trouble = type(motor.trouble)()
     motor.winding_c = 30.0
