@@ -275,6 +275,21 @@ def test_many_refused_datagrams_warn_by_board_and_reason(rig):
         assert not driver.alarms.on
 
 
+def test_a_drive_that_tells_wrong_speeds_is_seen_within_160_ms_of_moving(rig):
+    with rig.driver:
+        rig.cycle(100, q=0.5)
+        rig.drive("wrist").trouble.speed_scale = 0.5
+        moves_s, seen_s = [], []
+        for k in range(150):
+            state = rig.cycle(1, q=0.5 + 0.4 * np.sin(0.03 * k), kp=20.0, kd=0.5)
+            if abs(rig.drive("wrist").shaft.qd_rad_s) > 0.5:
+                moves_s.append(rig.clock.now_s())
+            if ("speed_mismatch", "wrist") in {(one.code, one.who) for one in state.alarms}:
+                seen_s.append(rig.clock.now_s())
+        assert seen_s
+        assert seen_s[0] - moves_s[0] < 0.16
+
+
 # --- commands that are none ----------------------------------------------------------------------
 
 
