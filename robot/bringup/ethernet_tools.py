@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import msgspec
@@ -11,7 +12,7 @@ from robot.bringup.motor_reports import Reading, Seen
 from robot.clock import Clock
 from robot.drivers.motors.ethernet import arming, datagrams
 from robot.drivers.motors.ethernet.datagrams import Kind
-from robot.drivers.motors.ethernet.interview import Answers, interview, status, verdicts
+from robot.drivers.motors.ethernet.interview import Answers, at_joints, interview, status, verdicts
 from robot.drivers.motors.ethernet.joint_map import DriveMap
 from robot.drivers.motors.ethernet.ports import Ports, UdpPorts, check_boards
 from robot.drivers.motors.ethernet.talking import Question, Talk
@@ -69,22 +70,26 @@ def scan(ports: Ports, clock: Clock, joints: DriveMap, up_to: int) -> list[Seen]
 def readings(ports: Ports, clock: Clock, joints: DriveMap) -> list[Reading]:
     """What every drive says now, each asked once."""
     answers = interview(Talk(ports, clock, joints))
-    return [_reading(name, joints, answers[name]) for name in joints.joints]
+    found = at_joints(joints, answers)
+    return [_reading(name, joints, answers[name], found[name]) for name in joints.joints]
 
 
-def _reading(name: str, joints: DriveMap, answer: Answers) -> Reading:
+def _reading(
+    name: str, joints: DriveMap, answer: Answers, found: tuple[float, float, float]
+) -> Reading:
     one, drive, told = joints.joints[name], answer.drive, answer.told
     if drive is None or told is None:
         return Reading(joint=name, bus=one.board, id=one.id, model=one.model, status="silent")
+    q_rad, qd_rad_s, tau_nm = (None if math.isnan(value) else value for value in found)
     return Reading(
         joint=name,
         bus=one.board,
         id=one.id,
         model=one.model,
         status=status(drive.state, drive.faults),
-        q_rad=one.joint_rad(drive.q_rad),
-        qd_rad_s=one.sign * drive.qd_rad_s / one.gear,
-        tau_nm=one.sign * drive.tau_nm * one.gear,
+        q_rad=q_rad,
+        qd_rad_s=qd_rad_s,
+        tau_nm=tau_nm,
         winding_c=drive.celsius,
         driver_c=told.celsius,
         supply_v=told.volts,

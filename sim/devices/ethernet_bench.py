@@ -6,9 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Self, cast
 
+import numpy as np
+
 from robot.clock import SimulatedClock
 from robot.closing import Closing
 from robot.drivers.motors.ethernet.joint_map import DriveMap, JointDrive
+from robot.drivers.motors.linkage import Needed, needed
 from robot.errors import ConfigError, DriverError
 from sim.devices.ethernet_board import FLAWS, OVER_CURRENT, Board, Drive, Flaw, Kind
 from sim.devices.ethernet_cable import Cable
@@ -38,12 +41,12 @@ class EthernetBench:
             cable.board.live(until_s)
 
 
-def kind(joint: JointDrive) -> Kind:
-    """A drive that does what the map says of its joint, and something more."""
+def kind(joint: JointDrive, wants: Needed) -> Kind:
+    """A drive that does what its joint or its crank needs, and something more."""
     return Kind(
         joint.model,
-        SPARE * joint.velocity_limit_rad_s * joint.gear,
-        SPARE * joint.torque_limit_nm / joint.gear,
+        SPARE * wants.velocity_rad_s * joint.gear,
+        SPARE * wants.torque_nm / joint.gear,
     )
 
 
@@ -51,8 +54,9 @@ def cables_of(
     wanted: DriveMap, shafts: Mapping[str, Shaft], now_s: float, *, heat_k_s: float = 4.0
 ) -> EthernetBench:
     """The boards of a map, whose drives turn these shafts, by joint."""
+    wants = needed(wanted.linkages, wanted.joints)
     drives = {
-        name: Drive(kind(joint), shafts[name], heat_k_s=heat_k_s)
+        name: Drive(kind(joint, wants[name]), shafts[name], heat_k_s=heat_k_s)
         for name, joint in wanted.joints.items()
     }
     cables: dict[str, Cable] = {}
@@ -84,15 +88,24 @@ def build(
     if problems := unknown(flaws, joints=wanted.joints, known=FLAWS):
         raise ConfigError(problems)
     shafts: dict[str, FreeShaft] = {}
-    for name, joint in wanted.joints.items():
-        middle_rad = joint.motor_rad(0.5 * (joint.lower_rad + joint.upper_rad))
-        shafts[name] = FreeShaft(q_rad=middle_rad, spring_nm_rad=0.3)
+    for name, at_rad in _middle(wanted).items():
+        shafts[name] = FreeShaft(q_rad=wanted.joints[name].motor_rad(at_rad), spring_nm_rad=0.3)
         shafts[name].qd_rad_s = 0.0 if is_still else SWING_RAD_S
     made = cables_of(wanted, shafts, now_s)
     for name, flaw in flaws.items():
         if not made.cables[wanted.joints[name].board].suffer(cast("Flaw", flaw)):
             suffer(made.drives[name], cast("Flaw", flaw))
     return made
+
+
+def _middle(wanted: DriveMap) -> dict[str, float]:
+    """Where joints, or the cranks of their linkages, stand in the middle of their ranges."""
+    at = {name: 0.5 * (one.lower_rad + one.upper_rad) for name, one in wanted.joints.items()}
+    for linkage in wanted.linkages.values():
+        if all(name in at for name in linkage.joints):
+            cranks, _ = linkage.at(np.array([at[name] for name in linkage.joints]))
+            at |= dict(zip(linkage.joints, cranks.tolist(), strict=True))
+    return at
 
 
 def suffer(drive: Drive, flaw: Flaw) -> None:

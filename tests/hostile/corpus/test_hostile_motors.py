@@ -28,7 +28,7 @@ FIELDS = {
     ),
     "ethernet": (
         "rate_hz", "watchdog_s", "uplink_hz", "boards.left_leg.number", "boards.left_leg.port",
-        "boards.left_leg.link_hz", "boards.left_leg.turn_s", "joints.left_knee.board",
+        "boards.left_leg.link_hz", "boards.left_leg.turn_s", "joints.left_knee.board", "linkages",
         *(f"joints.left_knee.{key}" for key in _OF_A_MOTOR),
     ),
     "pwm": (

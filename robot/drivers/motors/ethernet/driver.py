@@ -30,13 +30,13 @@ from robot.drivers.motors.ethernet.ports import Ports, UdpPorts, check_boards
 from robot.drivers.motors.ethernet.reception import FASTEST_RAD_S, Reception
 from robot.drivers.motors.ethernet.talking import Question, Talk
 from robot.drivers.motors.findings import refuse_grave
-from robot.drivers.motors.gearing import Gearing
 from robot.drivers.motors.holding import Holding
 from robot.drivers.motors.life import Life, not_let_go
 from robot.drivers.motors.limiter import Limiter, Measured
 from robot.drivers.motors.periods import Periods
 from robot.drivers.motors.plant_behind import PlantClock
 from robot.drivers.motors.speed_check import SpeedCheck
+from robot.drivers.motors.transmission import AtMotors, Transmission
 from robot.drivers.motors.watching import SILENT_PERIODS
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
@@ -105,7 +105,7 @@ class EthernetMotors(Closing):
         self._tell, self._news = tell, News(self.alarms, tell)
         self._lets_go = lets_go
         self._clock, self._periods = clock, Periods(clock, joints.period_s)
-        self._gearing, self.limiter = Gearing(joints), Limiter(joints)
+        self._transmission, self.limiter = Transmission(joints), Limiter(joints)
         self._claim = Claim(f"udp:{at}" for at in joints.channels.values())
         self._life = Life(ports, self._claim)
         self._talk: Talk | None = None
@@ -147,10 +147,19 @@ class EthernetMotors(Closing):
         self._talk = talk = Talk(ports, self._clock, self.joints)
         answers = interview(talk)
         refuse_grave(verdicts(self.joints, answers), "motors")
-        self.reception = Reception(self.joints, talk.session, self._fastest_rad_s(answers))
+        fastest_rad_s = self._learn(answers)
+        self.reception = Reception(self.joints, talk.session, fastest_rad_s)
 
-    def _fastest_rad_s(self, answers: dict[str, Answers]) -> Array:
-        sold = [answers[name].sold(one.id) for name, one in self.joints.joints.items()]
+    def _learn(self, answers: dict[str, Answers]) -> Array:
+        """What drives do, as their boards say: the speed of each, shape (n,)."""
+        joints = self.joints.joints
+        sold = [answers[name].sold(one.id) for name, one in joints.items()]
+        self._transmission.most_nm = np.array(
+            [
+                np.inf if drive is None else drive.torque_nm * one.gear
+                for drive, one in zip(sold, joints.values(), strict=True)
+            ]
+        )
         return np.array([FASTEST_RAD_S if one is None else one.velocity_rad_s for one in sold])
 
     def close(self) -> None:
@@ -243,7 +252,9 @@ class EthernetMotors(Closing):
     def _state(self) -> MotorState:
         now_s, heard = self._clock.now_s(), self.reception
         heard.end_period()
-        q, qd, tau = heard.at_joints(self._gearing)
+        self._at = q, qd, tau = heard.at_joints(self._transmission)
+        for linkage, periods in self._transmission.unsolved:
+            self._watch.linkage(linkage, periods)
         strangers = self._life.lines.strangers
         self._watch.look(now_s, heard, q, qd, strangers=strangers, is_armed=self._is_armed)
         self._commanded += self._is_armed
@@ -253,9 +264,9 @@ class EthernetMotors(Closing):
         left_on = self._is_left_enabled and self._claim.is_held
         return MotorState(
             stamp_s=now_s,
-            q=q,
-            qd=qd,
-            tau=tau,
+            q=q.copy(),
+            qd=qd.copy(),
+            tau=tau.copy(),
             temperature_c=heard.temperature_c.copy(),
             age_s=now_s - heard.heard_s,
             watchdog=not (self._is_armed or left_on) or expired,
@@ -294,7 +305,7 @@ class EthernetMotors(Closing):
             raise DriverError("another controller commands the motors")
         if not self._is_armed:
             self._arm()
-        q, qd, _ = self.reception.at_joints(self._gearing)
+        q, qd, _ = self._at
         measured = Measured(q, qd, self.reception.temperature_c)
         wanted = self._holding.decided(command, self.alarms.level, obeyed=self._sent, q=q)
         self._sent = self._command(self.limiter.apply(wanted, measured))
@@ -321,18 +332,16 @@ class EthernetMotors(Closing):
         self._lost_before, self._commanded = self.reception.lost, 0
 
     def _command(self, command: MotorCommand) -> MotorCommand:
-        gearing = self._gearing
+        transmission, (q, qd, _) = self._transmission, self._at
         orders = np.empty(len(command.q_des), ORDER)
-        orders["q"], orders["qd"] = gearing.motor_q(command.q_des), gearing.motor_qd(command.qd_des)
-        orders["kp"], orders["kd"] = command.kp / gearing.stiffness, command.kd / gearing.stiffness
-        orders["tau"] = gearing.motor_tau(command.tau_ff)
+        for field, values in zip(
+            AtMotors._fields, transmission.at_motors(command, q, qd), strict=True
+        ):
+            orders[field] = values
         bodies = {board: orders[which].tobytes() for board, which in self._places.items()}
         self._send(Kind.COMMAND, bodies)
-        q, qd, kp, kd, tau = (orders[name].astype(float) for name in ("q", "qd", "kp", "kd", "tau"))
-        return MotorCommand(
-            command.stamp_s, gearing.joint_q(q), gearing.joint_qd(qd), gearing.joint_tau(tau),
-            kp * gearing.stiffness, kd * gearing.stiffness,
-        )  # fmt: skip
+        told = AtMotors(*(orders[field].astype(float) for field in AtMotors._fields))
+        return transmission.said(command, told, q, qd)
 
     def _send(self, kind: Kind, bodies: dict[str, bytes]) -> None:
         """Ask all boards, one datagram each; what the system does not take is not kept."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -26,7 +27,9 @@ from robot.drivers.motors.ethernet.datagrams import (
 from robot.drivers.motors.ethernet.joint_map import KD_MOST, KP_MOST, DriveMap, JointDrive
 from robot.drivers.motors.ethernet.talking import Question, Talk
 from robot.drivers.motors.findings import Finding, Said, findings
+from robot.drivers.motors.linkage import Needed, needed
 from robot.drivers.motors.mounting import misplaced
+from robot.drivers.motors.transmission import Transmission
 
 SAME_SHARE = 0.001
 
@@ -124,14 +127,44 @@ def status(state: int, faults: tuple[str, ...]) -> str:
     return State(state).name.lower() if state in [*State] else f"state_{state}"
 
 
+def at_joints(
+    joints: DriveMap, answers: Mapping[str, Answers]
+) -> dict[str, tuple[float, float, float]]:
+    """Angle, speed and torque of each joint; NaN where a motor that it takes did not tell."""
+    told = [answers[name].drive for name in joints.joints]
+    q, qd, tau = (
+        np.array([math.nan if one is None else getattr(one, field) for one in told])
+        for field in ("q_rad", "qd_rad_s", "tau_nm")
+    )
+    transmission = Transmission(joints)
+    rows = np.array(transmission.at_joints(q, qd, tau))
+    for linkage, unsolved in transmission.unsolved:
+        if unsolved:
+            names = joints.linkages[linkage].joints
+            rows[:, [name in names for name in joints.joints]] = math.nan
+    return {name: (row[0], row[1], row[2]) for name, row in zip(joints.joints, rows.T, strict=True)}
+
+
 def verdicts(joints: DriveMap, answers: Mapping[str, Answers]) -> list[Finding]:
     """All that disagrees, in the map's order."""
+    wanted = needed(joints.linkages, joints.joints)
+    angles: dict[str, float | None] = {
+        name: q for name, (q, _, _) in at_joints(joints, answers).items()
+    }
+    for linkage in joints.linkages.values():
+        if any(name in answers and answers[name].drive is None for name in linkage.joints):
+            angles |= dict.fromkeys(linkage.joints, None)  # nobody can tell without all of them
     return findings(
-        {name: _of_one(joints, one, answers[name]) for name, one in joints.joints.items()}
+        {
+            name: _of_one(joints, one, answers[name], wanted[name], angles[name])
+            for name, one in joints.joints.items()
+        }
     )
 
 
-def _of_one(joints: DriveMap, joint: JointDrive, answer: Answers) -> Iterator[Said]:
+def _of_one(
+    joints: DriveMap, joint: JointDrive, answer: Answers, wanted: Needed, q_rad: float | None
+) -> Iterator[Said]:
     board = joints.boards[joint.board]
     where = f"the board {joint.board!r} ({board.channel})"
     if answer.number is None:
@@ -154,16 +187,16 @@ def _of_one(joints: DriveMap, joint: JointDrive, answer: Answers) -> Iterator[Sa
         text = f"it is a {sold.model}, the map says {joint.model}"
         yield "wrong_model", text, "correct the map, or exchange the plugs", True
         return
-    yield from _limits(joint, sold)
-    yield from _state(joint, answer)
+    yield from _limits(joint, sold, wanted)
+    yield from _state(joint, answer, q_rad)
 
 
-def _limits(joint: JointDrive, sold: Sold) -> Iterator[Said]:
+def _limits(joint: JointDrive, sold: Sold, wants: Needed) -> Iterator[Said]:
     """Whether its drive does what the map says of the joint."""
     gear, slack = joint.gear, 1.0 - SAME_SHARE
     wanted = (
-        ("torque_limit_nm", "N m", sold.torque_nm * gear, joint.torque_limit_nm),
-        ("velocity_limit_rad_s", "rad/s", sold.velocity_rad_s / gear, joint.velocity_limit_rad_s),
+        ("torque_limit_nm", "N m", sold.torque_nm * gear, wants.torque_nm),
+        ("velocity_limit_rad_s", "rad/s", sold.velocity_rad_s / gear, wants.velocity_rad_s),
     )
     for key, unit, does, says in wanted:
         if does < says * slack:
@@ -178,7 +211,7 @@ def _limits(joint: JointDrive, sold: Sold) -> Iterator[Said]:
         yield "trips_early", text, f"set over_temperature_c under {sold.trips_c:g}", False
 
 
-def _state(joint: JointDrive, answer: Answers) -> Iterator[Said]:
+def _state(joint: JointDrive, answer: Answers, q_rad: float | None) -> Iterator[Said]:
     told, drive = answer.told, answer.drive
     if told is None or drive is None:
         text = "it does not tell where its joint is, or what it tells is no number"
@@ -191,5 +224,10 @@ def _state(joint: JointDrive, answer: Answers) -> Iterator[Said]:
     if is_on and told.flags & FLAGS_OTHERS and drive.state == State.ENABLED:
         text = "another program has enabled it"
         yield "commanded", text, "it is taken over by the first command", False
-    if (wrong := misplaced(joint, joint.joint_rad(drive.q_rad))) is not None:
+    if q_rad is None:
+        return
+    if math.isnan(q_rad):
+        text = "its linkage does not fit: its motors stand where its joints cannot be"
+        yield "linkage", text, "look at signs, offsets and rods in the map", True
+    elif (wrong := misplaced(joint, q_rad)) is not None:
         yield wrong.code, wrong.text, wrong.cure, True

@@ -17,10 +17,11 @@ from typing import Annotated, TypeAlias
 
 import msgspec
 
-from robot.drivers.motors import motor_map
+from robot.drivers.motors import linkage, motor_map
 from robot.drivers.motors.ethernet import load as link_load
 from robot.drivers.motors.ethernet.datagrams import MOST_SLOTS
 from robot.drivers.motors.ethernet.load import BoardLink
+from robot.drivers.motors.linkage import Linkage
 from robot.drivers.motors.motor_map import Motor, MotorMap, Wrong
 from robot.files import quantities as q
 from robot.model.description import RobotDescription
@@ -119,6 +120,7 @@ class DriveMap(MotorMap, frozen=True, kw_only=True, forbid_unknown_fields=True):
         watchdog_s: written into every board at the start.
         uplink_hz: of the computer's own link, each way.
         boards: by name.
+        linkages: by name: joints that their motors move together.
     """
 
     rate_hz: Rate
@@ -126,6 +128,12 @@ class DriveMap(MotorMap, frozen=True, kw_only=True, forbid_unknown_fields=True):
     uplink_hz: Bits = 100_000_000
     boards: dict[str, Board]
     joints: dict[str, JointDrive]
+    linkages: dict[str, Linkage] = msgspec.field(default_factory=dict[str, Linkage])
+
+    @property
+    def linked(self) -> Mapping[str, str]:
+        """The linkage of each joint that is in one."""
+        return {one: name for name, found in self.linkages.items() for one in found.joints}
 
     @property
     def channels(self) -> Mapping[str, str]:
@@ -153,7 +161,7 @@ def load(path: Path | str) -> DriveMap:
     Raises:
         ConfigError: with everything that is wrong in it, each with its line and a cure.
     """
-    checks = (_names, _addresses, _slots, _limits, _loads)
+    checks = (_names, _addresses, _slots, _limits, _linkages, _loads)
     return motor_map.read(path, DriveMap, begin_with="rate_hz: 500", checks=checks)
 
 
@@ -224,6 +232,10 @@ def _limits(found: DriveMap) -> Iterator[Wrong]:
         if joint.lower_rad >= joint.upper_rad:
             text = "lower_rad is not below upper_rad"
             yield f"$.joints.{name}.lower_rad", text, "exchange them"
+
+
+def _linkages(found: DriveMap) -> Iterator[Wrong]:
+    yield from linkage.wrong(found.linkages, found.joints)
 
 
 def _loads(found: DriveMap) -> Iterator[Wrong]:

@@ -22,8 +22,8 @@ from robot.drivers.motors.ethernet.datagrams import (
     is_before,
 )
 from robot.drivers.motors.ethernet.joint_map import DriveMap
-from robot.drivers.motors.gearing import Gearing
 from robot.drivers.motors.jumps import Jumps
+from robot.drivers.motors.transmission import Transmission
 from robot.se3 import Array
 
 FASTEST_RAD_S = 100.0
@@ -200,6 +200,6 @@ class Reception:
             self.q += np.where(bridged, self.qd * self._period_s, 0.0)
         self._came[:] = False
 
-    def at_joints(self, gearing: Gearing) -> tuple[Array, Array, Array]:
+    def at_joints(self, transmission: Transmission) -> tuple[Array, Array, Array]:
         """Angles, speeds and torques of the joints; arrays of their own."""
-        return gearing.joint_q(self.q), gearing.joint_qd(self.qd), gearing.joint_tau(self.tau)
+        return transmission.at_joints(self.q, self.qd, self.tau)

@@ -82,3 +82,37 @@ def test_the_controller_stands_and_walks_by_datagrams_and_no_reply_is_late(robot
     (line,) = lines
     assert "33 joints on 5 boards, 899 periods at 500 Hz, 0 replies late (0.000%)" in line
     assert "0 datagrams refused, 0 not sent, 0 periods late" in line
+
+
+ANKLES = """
+linkages:
+  left_ankle: {type: rods, joints: [left_ankle_pitch, left_ankle_roll], rods: [
+    {motor_at_m: [0, 0.03, 0.2], crank_m: 0.05, rod_m: 0.22, foot_at_m: [-0.05, 0.03, -0.02]},
+    {motor_at_m: [0, -0.03, 0.28], crank_m: 0.05, rod_m: 0.3, foot_at_m: [-0.05, -0.03, -0.02]}]}
+  right_ankle: {type: rods, joints: [right_ankle_pitch, right_ankle_roll], rods: [
+    {motor_at_m: [0, 0.03, 0.28], crank_m: 0.05, rod_m: 0.3, foot_at_m: [-0.05, 0.03, -0.02]},
+    {motor_at_m: [0, -0.03, 0.2], crank_m: 0.05, rod_m: 0.22, foot_at_m: [-0.05, -0.03, -0.02]}]}
+  waist: {type: belts, joints: [waist_roll, waist_pitch], turns: [[1, 1], [1, -1]]}
+"""
+
+
+def test_it_walks_on_ankles_of_two_rods_and_a_waist_of_a_differential(robot, tmp_path):
+    path = tmp_path / "ethernet.yaml"
+    path.write_text(robot.path().with_name("ethernet.yaml").read_text() + ANKLES)
+    boards = joint_map.of_robot(joint_map.load(path), robot.motor_names)
+    plant = Plant(world.load("empty"), robot, seed=0, noisy=False)
+    rig = EthernetLockstep(plant, boards, tmp_path)
+    loop = ControlLoop(robot)
+    lines: list[str] = []
+    with rig.motors(lines.append) as driver:
+        for k in range(900):
+            state, felt = driver.read(), rig.plant.sample
+            driver.write(loop.tick(BodySample(state, felt.imu, felt.force)))
+            if k == 150:
+                loop.handle(Walk(stamp_s=rig.now_s(), id=1, forward_m_s=0.3, hold_s=9.0))
+        truth = rig.plant.read().motors
+        assert (np.abs(state.q - truth.q) <= 0.002 + 0.003 * np.abs(truth.qd)).all()
+        assert loop.mode == "walk"
+        assert not state.alarms
+    assert rig.plant.where(robot.base_body).p[0] > 0.05
+    assert "0 replies late" in lines[0]
