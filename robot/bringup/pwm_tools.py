@@ -41,8 +41,23 @@ def ports(joints: PulseMap, _clock: Clock) -> Chips:
 
 
 def findings(_ports: Chips, _clock: Clock, _joints: PulseMap) -> list[Finding]:
-    """None: that chips answer was seen as they were reached, and servos say nothing."""
-    return []
+    """What nobody can put right: that chips answer was seen as they were reached."""
+    return [
+        Finding(
+            "all",
+            "assumed",
+            "nothing is measured: where joints are is where they were sent",
+            "look at the joints themselves",
+            is_grave=False,
+        ),
+        Finding(
+            "all",
+            "no_watchdog",
+            "a PCA9685 has no watchdog: its servos go on as they were told when the computer dies",
+            "wire its OE pin to the contact of an emergency stop",
+            is_grave=False,
+        ),
+    ]
 
 
 def scan(ports: Chips, _clock: Clock, joints: PulseMap, _up_to: int) -> list[Seen]:

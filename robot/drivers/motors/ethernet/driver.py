@@ -5,6 +5,7 @@ Boards close the law of MIT mode themselves. Who only reads asks for the state, 
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from typing import Self
 
@@ -16,7 +17,7 @@ from robot.drivers.motor_bus import MIT_MODE, MotorBus, MotorCommand, MotorState
 from robot.drivers.motors.alarms import Alarms, News, untold
 from robot.drivers.motors.claim import Claim
 from robot.drivers.motors.ethernet import arming, joint_map, watching
-from robot.drivers.motors.ethernet.datagrams import FLAGS_EXPIRED, ORDER, Kind, State
+from robot.drivers.motors.ethernet.datagrams import FLAGS_EXPIRED, ORDER, Kind, Reason, State
 from robot.drivers.motors.ethernet.emulated import EmulatedBoards, boards_in
 from robot.drivers.motors.ethernet.interview import (
     Answers,
@@ -120,6 +121,7 @@ class EthernetMotors(Closing):
         self._sent: MotorCommand | None = None
         self._holding = Holding()
         self._commanded = self._lost_before = 0
+        self._refused_before = Counter[Reason]()
 
     def __enter__(self) -> Self:
         """Open the ways to all boards, and ask every one who it is; nothing is enabled.
@@ -187,7 +189,7 @@ class EthernetMotors(Closing):
     def _summary(self) -> str:
         """How well answers came since the joints were enabled."""
         joints, lost = len(self.joints.joints), self.reception.lost - self._lost_before
-        refused = self.reception.refused
+        refused = self.reception.refused - self._refused_before
         why = ", ".join(f"{count} {reason}" for reason, count in refused.most_common())
         return (
             f"Ethernet: {joints} joints on {len(self.joints.boards)} boards, {self._commanded} "
@@ -330,6 +332,7 @@ class EthernetMotors(Closing):
             if (before == self.reception.heard_s).all():
                 break
         self._lost_before, self._commanded = self.reception.lost, 0
+        self._refused_before = self.reception.refused
 
     def _command(self, command: MotorCommand) -> MotorCommand:
         transmission, (q, qd, _) = self._transmission, self._at

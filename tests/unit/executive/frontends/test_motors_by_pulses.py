@@ -43,6 +43,7 @@ def test_chips_are_found_and_servos_have_nothing_to_say(file):
     checked = motors("check", "--map", file, "--emulated", "--for", 0.3)
     assert checked.exit_code == 0, checked.output
     assert "nothing is measured: where joints are is where they were sent" in checked.stdout
+    assert "a PCA9685 has no watchdog" in checked.stdout
     assert "The chips of 3 servos answer (emulated); the servos say nothing." in checked.stdout
 
 

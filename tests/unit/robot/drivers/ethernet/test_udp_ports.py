@@ -118,3 +118,20 @@ def test_who_asks_gets_the_answer_among_several(tmp_path):
                 assert (said.session, said.sequence) == wanted
         server.unplug(0)
         assert not path.exists()
+
+
+def test_a_board_may_have_an_address_of_ip_6():
+    with socket.socket(socket.AF_INET6, socket.SOCK_DGRAM) as there:
+        try:
+            there.bind(("::1", 0))
+        except OSError:
+            pytest.skip("this machine has no IPv6")
+        there.settimeout(2.0)
+        port = there.getsockname()[1]
+        arm = Board(address="0:0::1", port=port, number=1)
+        assert arm.device == f"udp:[0:0::1]:{port}"
+        with UdpPorts({"arm": arm}) as ports:
+            ports.send("arm", b"?")
+            _, asker = there.recvfrom(100)
+            there.sendto(b"!", asker)
+            assert came(ports, 1) == [("arm", b"!")]
