@@ -52,12 +52,14 @@ class Answers:
 
     Attributes:
         number: under which the board answers.
+        refused: what its board sent instead of answers, in words; "" if nothing.
         hello: who it is.
         told: what the board says of itself.
         drive: what its drive says of the joint.
     """
 
     number: int | None = None
+    refused: str = ""
     hello: Hello | None = None
     told: Told | None = None
     drive: Drive | None = None
@@ -76,6 +78,10 @@ def interview(talk: Talk) -> dict[str, Answers]:
     joints = talk.joints
     answers = {name: Answers() for name in joints.joints}
     who = talk.ask_all({board: Question(Kind.HELLO) for board in joints.boards})
+    for board, reasons in talk.refused.items():
+        for name in joints.on(board):
+            words = ", ".join(f"{count} by their {reason}" for reason, count in reasons.items())
+            answers[name].refused = words
     for board, answer in who.items():
         for name in joints.on(board):
             answers[name].number, answers[name].hello = answer.board, datagrams.hello(answer)
@@ -168,6 +174,11 @@ def _of_one(
     board = joints.boards[joint.board]
     where = f"the board {joint.board!r} ({board.channel})"
     if answer.number is None:
+        if answer.refused:
+            text = f"what {where} answers is refused: {answer.refused}"
+            cure = "is its firmware of version 1 of the datagrams, and its cable whole?"
+            yield "refused", text, cure, True
+            return
         yield "silent", f"{where} does not answer", "check its power, cable, address and port", True
         return
     if answer.number != board.number:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Mapping
 from typing import NamedTuple
 
@@ -32,7 +33,7 @@ class Talk:
     Attributes:
         session: of this program, drawn anew for each driver.
         sequence: of what was asked last.
-        refused: answers that were none to what was asked.
+        refused: datagrams that were no answer to what was asked, by board and reason.
     """
 
     def __init__(self, ports: Ports, clock: Clock, joints: DriveMap) -> None:
@@ -40,7 +41,7 @@ class Talk:
         self.ports, self.clock, self.joints = ports, clock, joints
         self.session = int.from_bytes(os.urandom(4), "little")
         self.sequence = int.from_bytes(os.urandom(4), "little")
-        self.refused = 0
+        self.refused = {board: Counter[str]() for board in joints.boards}
 
     def begin(self) -> tuple[int, int]:
         """The next sequence, and the time, for what is asked now."""
@@ -64,16 +65,20 @@ class Talk:
         while True:
             for board, data in self.ports.receive():
                 answer = opened(data)
-                if isinstance(answer, Datagram) and board in questions:
-                    kind = questions[board].kind
-                    fits = (kind | ANSWER, self.session, sequence)
-                    if (answer.kind, answer.session, answer.sequence) == fits:
-                        said.setdefault(board, answer)
-                        continue
-                self.refused += 1
+                if not isinstance(answer, Datagram):
+                    self.refused[board][answer] += 1
+                elif board in questions and self._fits(answer, questions[board], sequence):
+                    said.setdefault(board, answer)
+                else:
+                    self.refused[board]["late"] += 1
             if len(said) == len(questions) or self.clock.now_s() >= until_s:
                 return said
             self.clock.sleep_until(min(until_s, self.clock.now_s() + POLL_S))
+
+    def _fits(self, answer: Datagram, question: Question, sequence: int) -> bool:
+        """Whether it answers what was asked just now."""
+        found = (answer.kind, answer.session, answer.sequence)
+        return found == (question.kind | ANSWER, self.session, sequence)
 
     def ask_all(self, questions: Mapping[str, Question]) -> dict[str, Datagram]:
         """Ask, and ask those again that did not answer; the answers, by board.

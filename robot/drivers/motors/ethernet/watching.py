@@ -17,6 +17,8 @@ from robot.se3 import Array
 
 FULL_S = 0.010
 IMPOSSIBLE_PERIODS = 3
+UNKNOWN = 1000
+"""Periods without an answer, of one that never came."""
 NOISY_S, NOISY_DATAGRAMS = 1.0, 5
 """So many refused datagrams of a board in so long."""
 
@@ -70,8 +72,8 @@ FULL = Kind(
 NOISY = Kind(
     "noisy",
     Level.WARN,
-    f"{NOISY_DATAGRAMS} datagrams of a board in {NOISY_S:g} s were refused: late, twice, spoilt, "
-    "of another version, from a strange address",
+    f"{NOISY_DATAGRAMS} datagrams of a board in {NOISY_S:g} s were refused: twice, spoilt, of "
+    "another version, from a strange address (late ones count as lost)",
     f"{NOISY_S:g} s",
 )
 KINDS = (STRAINED, FAULT, EXPIRED, RESTARTED, OTHERS, IMPOSSIBLE, FULL, NOISY)
@@ -134,7 +136,9 @@ class Watch:
             strangers: datagrams of each board's socket that came from somewhere else.
             is_armed: whether the joints were enabled from here.
         """
-        self.joints.speeds.feel(now_s, q, qd, heard.misses)
+        # Before its first answer a joint stands nowhere: from there to where it is nothing moved.
+        unknown = np.where(np.isfinite(heard.heard_s), heard.misses, UNKNOWN)
+        self.joints.speeds.feel(now_s, q, qd, unknown)
         is_odd = bool(heard.faults.any()) or bool((heard.state != State.ENABLED).any())
         if self.joints.are_due(
             misses=heard.misses, jumps=heard.jumps, temperature_c=heard.temperature_c, is_odd=is_odd
@@ -148,6 +152,7 @@ class Watch:
             for name, board in heard.boards.items():
                 refused = Counter[str](board.refused)
                 refused["source"] = strangers.get(name, 0)
+                refused["late"] = 0
                 self._noise(name, refused)
 
     def _of_one(self, index: int, heard: Reception, *, is_armed: bool) -> list[Alarm]:

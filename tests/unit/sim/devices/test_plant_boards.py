@@ -84,6 +84,23 @@ def test_the_controller_stands_and_walks_by_datagrams_and_no_reply_is_late(robot
     assert "0 datagrams refused, 0 not sent, 0 periods late" in line
 
 
+def test_it_walks_over_a_network_that_loses_every_twentieth_exchange(robot, rig):
+    loop = ControlLoop(robot)
+    with rig.motors() as driver:
+        for k in range(1200):
+            if k == 100:
+                for cable in rig.buses.cables:
+                    cable.trouble.loses_share = 0.025  # of questions, and of answers
+            state, felt = driver.read(), rig.plant.sample
+            driver.write(loop.tick(BodySample(state, felt.imu, felt.force)))
+            assert not {"SIT", "DAMP", "OFF"} & {alarm.level for alarm in state.alarms}
+            if k == 150:
+                loop.handle(Walk(stamp_s=rig.now_s(), id=1, forward_m_s=0.3, hold_s=9.0))
+        assert 0.03 < driver.reception.lost / (1100 * 33) < 0.07
+        assert loop.mode == "walk"
+    assert rig.plant.where(robot.base_body).p[0] > 0.2
+
+
 ANKLES = """
 linkages:
   left_ankle: {type: rods, joints: [left_ankle_pitch, left_ankle_roll], rods: [

@@ -80,8 +80,8 @@ def test_one_datagram_a_board_and_period_says_it_all_with_sequences_that_go_up(r
     [
         ("silent", "the board 'upper'"),
         ("loses_replies", "does not answer"),
-        ("spoils", "does not answer"),
-        ("old_version", "does not answer"),
+        ("spoils", "answers is refused: 3 by their "),
+        ("old_version", "answers is refused: 3 by their version (is its firmware of version 1"),
         ("wrong_board", "is board 0, the map says 1"),
         ("not_a_number", "or what it tells is no number"),
         ("wrong_model", "it is a OTHER-1, the map says ARM-20"),
@@ -288,6 +288,25 @@ def test_a_drive_that_tells_wrong_speeds_is_seen_within_160_ms_of_moving(rig):
                 seen_s.append(rig.clock.now_s())
         assert seen_s
         assert seen_s[0] - moves_s[0] < 0.16
+
+
+def test_a_first_answer_that_is_lost_makes_no_speed_wrong(rig, monkeypatch):
+    """Of a joint far from 0, of which nothing is known yet."""
+    periods = rig.driver._periods
+    begin = periods.begin
+
+    def begins() -> None:
+        begin()
+        rig.cable("elbow").trouble.loses = 1
+
+    monkeypatch.setattr(periods, "begin", begins)
+    with rig.driver as driver:
+        for _ in range(200):
+            driver.read()
+        assert driver.reception.lost == 2  # both joints of its board, once
+        ratio = driver.speeds.ratio
+        assert np.isfinite(ratio).any()
+        assert (np.isnan(ratio) | (np.abs(ratio - 1.0) < 0.2)).all()
 
 
 # --- commands that are none ----------------------------------------------------------------------
