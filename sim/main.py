@@ -10,7 +10,6 @@ from robot.bus import run
 from robot.bus.lifeline import Stop, ask_for_real_time, tie_to_parent
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import WallClock
-from robot.drivers.registry import CAN, DYNAMIXEL
 from robot.drivers.simulation.shared_plant import PlantServer
 from robot.model import description
 from sim.live import LivePlant
@@ -38,9 +37,12 @@ def main(run_file: str, parent_pid: str) -> None:
             stack.enter_context(scene)
         clock = WallClock()
         buses = None
-        if config.motors in (CAN, DYNAMIXEL):
-            joints, servos = maps(robot, config.motors)
-            buses = PlantBuses(plant, joints, config.memory, clock=clock, tell=print, servos=servos)
+        found = maps(robot, config.motors)
+        if any(joints is not None for joints in found):
+            buses = PlantBuses(
+                plant, found.can, config.memory, clock=clock, tell=print, servos=found.servos,
+                boards=found.boards, pulses=found.pulses,
+            )  # fmt: skip
             stack.enter_context(buses)
         ask_for_real_time()
         gc.freeze()  # what start-up made stays: the collector need not look at it every period

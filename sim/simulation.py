@@ -137,9 +137,9 @@ class Simulation:
         """Whether it emulates a robot's motors. Raises ConfigError with all that it does not."""
         from sim import plant_buses  # and with it python-can, which nothing else here needs
 
-        joints, _ = plant_buses.maps(robot, driver)
-        if joints is not None:
-            plant_buses.check(joints)
+        for joints in plant_buses.maps(robot, driver):
+            if joints is not None:
+                plant_buses.check(joints)
 
     def motors(
         self, file: Path, *, flaws: Mapping[str, str], is_still: bool = False

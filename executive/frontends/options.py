@@ -81,8 +81,9 @@ Driver = Annotated[
     str,
     typer.Option(
         "--driver",
-        help="Of its motors, in place of the one that the robot names: simulated, or can, with "
-        "emulated motors behind emulated buses (docs/hardware.md; not with --fast).",
+        help="Of its motors, in place of the one that the robot names: simulated, or can, "
+        "dynamixel, ethernet, pwm, with emulated motors behind emulated buses (docs/hardware.md; "
+        "not with --fast).",
     ),
 ]
 Model = Annotated[

@@ -60,12 +60,21 @@ def only(joints: M, name: str) -> M:
     """The map of one joint and its bus or port, at a slow rate.
 
     Raises:
-        ConfigError: there is no such joint, with the nearest.
+        ConfigError: there is no such joint, with the nearest; it is in a linkage; or its motor
+            measures nothing.
     """
     family, joint = motor_families.of(joints), joints.joints.get(name)
     if joint is None:
         cure = nearest(name, list(joints.joints)) or f"one of {', '.join(joints.joints)}"
         raise ConfigError([Problem(f"there is no joint {name!r}", joints.file, suggestion=cure)])
+    if (linkage := joints.linked.get(name)) is not None:
+        text = f"{name} is in the linkage {linkage!r}: one motor alone moves its other joints, too"
+        cure = "humanoid motors watch shows all of them, turned by hand"
+        raise ConfigError([Problem(text, joints.file, suggestion=cure)])
+    if not family.measures:
+        text = f"the motor of {name} does not say where it is"
+        cure = "look at it, and correct pulse_us, offset_rad and sign in the map"
+        raise ConfigError([Problem(text, joints.file, suggestion=cure)])
     return msgspec.structs.replace(
         joints,
         rate_hz=min(family.jog_hz, joints.rate_hz),

@@ -7,10 +7,11 @@ from pathlib import Path
 from robot.bringup.motor_families import BY_DRIVER, of
 from robot.bringup.motor_tools import loads
 from robot.control.loop import BUS_PERIOD_S
-from robot.drivers.motors import servos_and_others
+from robot.drivers.motors import pwm_and_others, servos_and_others
 from robot.drivers.motors.can import joint_map as can_map
+from robot.drivers.motors.ethernet import joint_map as drive_map
 from robot.drivers.motors.motor_map import MotorMap
-from robot.drivers.registry import CAN, MOTORS
+from robot.drivers.registry import CAN, ETHERNET, MOTORS, PWM
 from robot.errors import ConfigError, Problem
 from robot.files.misfits import nearest
 from robot.model.description import RobotDescription
@@ -35,9 +36,10 @@ def checked(robot: RobotDescription, driver: str) -> str:
         raise ConfigError([Problem(text, str(file), suggestion=cure)])
     if driver == CAN:
         return _on(can_map.beside(robot))
-    servos, others = servos_and_others.maps(robot)
-    said = _on(servos)
-    return said if others is None else f"{said} {_on(others)}"
+    if driver == ETHERNET:
+        return _on(drive_map.beside(robot))
+    found = pwm_and_others.maps(robot) if driver == PWM else servos_and_others.maps(robot)
+    return " ".join(_on(joints) for joints in found if joints is not None)
 
 
 def _on(joints: MotorMap) -> str:

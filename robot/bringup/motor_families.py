@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from robot.bringup import can_tools, servo_tools
+from robot.bringup import can_tools, ethernet_tools, pwm_tools, servo_tools
 from robot.bringup.motor_family import M, MotorFamily
 from robot.drivers.motors.can import joint_map as can_map
 from robot.drivers.motors.can import load as can_load
@@ -15,7 +15,15 @@ from robot.drivers.motors.dynamixel import joint_map as servo_map
 from robot.drivers.motors.dynamixel import load as servo_load
 from robot.drivers.motors.dynamixel.driver import DynamixelMotors
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
-from robot.drivers.registry import CAN, DYNAMIXEL
+from robot.drivers.motors.ethernet import joint_map as drive_map
+from robot.drivers.motors.ethernet import load as link_load
+from robot.drivers.motors.ethernet.driver import EthernetMotors
+from robot.drivers.motors.ethernet.joint_map import DriveMap
+from robot.drivers.motors.pwm import joint_map as pulse_map
+from robot.drivers.motors.pwm import load as i2c_load
+from robot.drivers.motors.pwm.driver import PwmMotors
+from robot.drivers.motors.pwm.joint_map import PulseMap
+from robot.drivers.registry import CAN, DYNAMIXEL, ETHERNET, PWM
 from robot.files import yaml_nodes
 
 FAMILIES: tuple[MotorFamily[Any, Any], ...] = (
@@ -62,6 +70,51 @@ FAMILIES: tuple[MotorFamily[Any, Any], ...] = (
         bare=servo_tools.bare,
         resting=servo_tools.resting,
         set_zero=servo_tools.set_zero,
+    ),
+    MotorFamily(
+        driver=ETHERNET,
+        title="Ethernet",
+        file=drive_map.FILE,
+        lines="boards",
+        map=DriveMap,
+        load=drive_map.load,
+        elsewhere=ethernet_tools.elsewhere,
+        check_user=ethernet_tools.check_user,
+        most_load=link_load.MOST_LOAD,
+        ports=ethernet_tools.ports,
+        motors=EthernetMotors,
+        scan=ethernet_tools.scan,
+        readings=ethernet_tools.readings,
+        findings=ethernet_tools.findings,
+        late_cure="look at switch and cables, for other traffic, a busy computer",
+        speed_cure="is its gear right? is its encoder?",
+        jog_hz=100,
+        bare=ethernet_tools.bare,
+        resting=ethernet_tools.resting,
+        set_zero=ethernet_tools.set_zero,
+    ),
+    MotorFamily(
+        driver=PWM,
+        title="PWM",
+        file=pulse_map.FILE,
+        lines="chips",
+        map=PulseMap,
+        load=pulse_map.load,
+        elsewhere=pwm_tools.elsewhere,
+        check_user=pwm_tools.check_user,
+        most_load=i2c_load.MOST_LOAD,
+        ports=pwm_tools.ports,
+        motors=PwmMotors,
+        scan=pwm_tools.scan,
+        readings=pwm_tools.readings,
+        findings=pwm_tools.findings,
+        late_cure="nothing is awaited of them",
+        speed_cure="look at the joints themselves",
+        jog_hz=50,
+        bare=pwm_tools.bare,
+        resting=pwm_tools.resting,
+        set_zero=pwm_tools.set_zero,
+        measures=False,
     ),
 )
 

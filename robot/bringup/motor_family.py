@@ -111,6 +111,7 @@ class MotorFamily(Generic[M, P]):
         resting: the status of the only joint's motor while it gives torque; "" while it does not.
         set_zero: lets the only joint's motor call this position zero, where its map says the angle
             at which it stands; raises DriverError where that is no good.
+        measures: whether its motors say where they are.
     """
 
     driver: str
@@ -133,3 +134,4 @@ class MotorFamily(Generic[M, P]):
     bare: Callable[[Motor], Motor]
     resting: Callable[[MapDriver, P, Clock], str]
     set_zero: Callable[[P, Clock, M, float], None]
+    measures: bool = True

@@ -16,6 +16,8 @@ from robot.drivers.motors import motor_map, watching
 from robot.drivers.motors.alarms import DOES, Kind, Level
 from robot.drivers.motors.can import watching as can_watching
 from robot.drivers.motors.dynamixel import watching as servo_watching
+from robot.drivers.motors.ethernet import watching as board_watching
+from robot.drivers.motors.pwm import watching as pulse_watching
 from robot.owner import ladder
 
 Rows: TypeAlias = list[list[str]]
@@ -24,6 +26,8 @@ KINDS: dict[str, tuple[Kind, ...]] = {
     "any": watching.KINDS,
     "CAN": can_watching.KINDS,
     "Dynamixel": servo_watching.KINDS,
+    "Ethernet": board_watching.KINDS,
+    "PWM": pulse_watching.KINDS,
 }
 
 
@@ -71,10 +75,11 @@ def watchdogs() -> Rows:
     return [
         [
             family.title,
-            f"{1000 * _usual(family.map, 'watchdog_s'):g} ms",
-            f"{motor_map.WATCHDOG_PERIODS} periods",
+            f"{1000 * usual_s:g} ms" if usual_s else "none: they go on with their last pulse",
+            f"{motor_map.WATCHDOG_PERIODS} periods" if usual_s else "-",
         ]
         for family in FAMILIES
+        for usual_s in (_usual(family.map, "watchdog_s"),)
     ]
 
 

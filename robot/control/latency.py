@@ -82,6 +82,7 @@ class Latency:
         if look > 1 or last is None:
             return
         error = (state.tau - self._owed(last, state)) * self._inverse
+        error[:, np.isnan(state.tau)] = 0.0  # a motor that measures no torque tells nothing
         before, self._error = self._error, error
         if look == 0 or before is None or not math.isfinite(float(error[0].sum())):
             return

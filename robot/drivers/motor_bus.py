@@ -65,7 +65,8 @@ class MotorState:
         q, qd, tau: joint positions, velocities, applied torques, shape (n,), motor order.
         temperature_c: winding temperatures, shape (n,).
         age_s: how old each motor's feedback was at the stamp, shape (n,); where replies come one
-            by one, a lost one is seen here. Not to be written to.
+            by one, a lost one is seen here; inf of one that never said anything, as hobby servos
+            do, whose position is assumed. Not to be written to.
         watchdog: True where the firmware damps because commands stopped coming.
         command_stamp_s: stamp of the last command the firmware took, -inf if none; on a bus whose
             frames carry no stamp, the last that this driver sent.

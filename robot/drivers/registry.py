@@ -24,7 +24,7 @@ from robot.model.description import Battery, Camera, Imu, Lidar, RobotDescriptio
 
 R = TypeVar("R")
 D_co = TypeVar("D_co", covariant=True)
-SIMULATED, CAN, DYNAMIXEL = "simulated", "can", "dynamixel"
+SIMULATED, CAN, DYNAMIXEL, ETHERNET, PWM = "simulated", "can", "dynamixel", "ethernet", "pwm"
 
 
 @dataclass(frozen=True)
@@ -87,6 +87,18 @@ def _dynamixel_motors(wiring: Wiring) -> MotorBus:
     return make(wiring)
 
 
+def _ethernet_motors(wiring: Wiring) -> MotorBus:
+    from robot.drivers.motors.ethernet.driver import make
+
+    return make(wiring)
+
+
+def _hobby_servos(wiring: Wiring) -> MotorBus:
+    from robot.drivers.motors.pwm_and_others import make
+
+    return make(wiring)
+
+
 def _simulated_imu(wiring: Wiring) -> SensorSource[ImuReading, Imu]:
     from robot.drivers.imu.simulated import make
 
@@ -136,7 +148,14 @@ def _simulated_battery(wiring: Wiring) -> SensorSource[PowerState, Battery | Non
 
 
 MOTORS = Family(
-    "motors", {SIMULATED: _simulated_motors, CAN: _can_motors, DYNAMIXEL: _dynamixel_motors}
+    "motors",
+    {
+        SIMULATED: _simulated_motors,
+        CAN: _can_motors,
+        DYNAMIXEL: _dynamixel_motors,
+        ETHERNET: _ethernet_motors,
+        PWM: _hobby_servos,
+    },
 )
 
 # What the controller reads in every period (`robot.drivers.body_devices`).

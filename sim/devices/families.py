@@ -13,13 +13,19 @@ from robot.closing import Closing
 from robot.drivers.motors.can.emulated import INTERFACE
 from robot.drivers.motors.can.ports import socket_path
 from robot.drivers.motors.dynamixel.emulated import terminal_path
+from robot.drivers.motors.ethernet.emulated import address_path
 from robot.drivers.motors.motor_map import MotorMap
-from robot.drivers.registry import CAN, DYNAMIXEL
-from sim.devices import bench, servo_bench
+from robot.drivers.motors.pwm.emulated import bus_path
+from robot.drivers.registry import CAN, DYNAMIXEL, ETHERNET, PWM
+from sim.devices import bench, ethernet_bench, pwm_bench, servo_bench
 from sim.devices.bench import Bench
+from sim.devices.ethernet_bench import EthernetBench
+from sim.devices.i2c_server import I2cServer
+from sim.devices.pwm_bench import PwmBench
 from sim.devices.serial_server import SerialServer
 from sim.devices.server import CanServer
 from sim.devices.servo_bench import ServoBench
+from sim.devices.udp_server import UdpServer
 
 B = TypeVar("B")
 B_co = TypeVar("B_co", covariant=True)
@@ -73,11 +79,21 @@ def _on_terminals(paths: Sequence[Path], built: ServoBench, clock: Clock) -> Ser
     return SerialServer(list(zip(paths, built.lines.values(), strict=True)), clock)
 
 
+def _on_udp(paths: Sequence[Path], built: EthernetBench, clock: Clock) -> Server:
+    return UdpServer(list(zip(paths, built.cables.values(), strict=True)), clock)
+
+
+def _on_i2c(paths: Sequence[Path], built: PwmBench, clock: Clock) -> Server:
+    return I2cServer(list(zip(paths, built.buses.values(), strict=True)), built, clock)
+
+
 EMULATED: Mapping[str, EmulatedFamily[Any]] = {
     CAN: EmulatedFamily(
         build=bench.build, path=socket_path, serve=_on_sockets, interface=INTERFACE
     ),
     DYNAMIXEL: EmulatedFamily(build=servo_bench.build, path=terminal_path, serve=_on_terminals),
+    PWM: EmulatedFamily(build=pwm_bench.build, path=bus_path, serve=_on_i2c),
+    ETHERNET: EmulatedFamily(build=ethernet_bench.build, path=address_path, serve=_on_udp),
 }
 
 

@@ -18,10 +18,12 @@ from robot.drivers.simulation.shared_plant import SILENCE_S, PlantServer, Shared
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.model import description
-from tests.fakes import dynamixel_rig
+from tests.fakes import dynamixel_rig, ethernet_rig, pwm_rig
 from tests.fakes.can_rig import CanPlant, Rig, can_map
 from tests.fakes.dynamixel_rig import ServoPlant
+from tests.fakes.ethernet_rig import EthernetPlant
 from tests.fakes.motors import FakePlant, hold
+from tests.fakes.pwm_rig import PwmPlant
 
 ROBOT = description.load("juno")
 COUNT = len(ROBOT.motors)
@@ -32,17 +34,17 @@ class Device:
     """A driver of a row, another of the same device, the plant behind, a period between them.
 
     Frames round to steps, and carry no stamps: what a state may be off, and whether a reader knows
-    the stamps of another's commands; whether gains go over the wire, or torque alone.
+    the stamps of another's commands; by which of a command's fields a motor that holds is known.
     """
 
     driver: MotorBus
     spare: MotorBus
     clock: SimulatedClock
-    plant: FakePlant | CanPlant | ServoPlant
+    plant: FakePlant | CanPlant | ServoPlant | EthernetPlant | PwmPlant
     period: Callable[[], None]
     step: float = 0.0
     stamps: bool = True
-    gains: bool = True
+    holds: str = "kp"
 
 
 def simulated_here(tmp_path: Path) -> Device:
@@ -99,13 +101,31 @@ def on_can(tmp_path: Path) -> Device:
 def on_serial_ports(tmp_path: Path) -> Device:
     rig = dynamixel_rig.Rig(dynamixel_rig.servo_map(ROBOT))
     plant = ServoPlant(rig, (rig.driver, rig.another()))
-    return Device(*plant.drivers, rig.clock, plant, plant.play, step=0.1, stamps=False, gains=False)
+    return Device(
+        *plant.drivers, rig.clock, plant, plant.play, step=0.1, stamps=False, holds="tau_ff"
+    )
+
+
+def behind_ethernet(tmp_path: Path) -> Device:
+    rig = ethernet_rig.Rig(ethernet_rig.drive_map(ROBOT))
+    plant = EthernetPlant(rig, (rig.driver, rig.another()))
+    return Device(*plant.drivers, rig.clock, plant, plant.play, step=0.1, stamps=False)
+
+
+def on_pulses(tmp_path: Path) -> Device:
+    rig = pwm_rig.Rig(pwm_rig.pulse_map(ROBOT))
+    plant = PwmPlant(rig, (rig.driver, rig.another()))
+    return Device(
+        *plant.drivers, rig.clock, plant, plant.play, step=0.1, stamps=False, holds="q_des"
+    )
 
 
 BENCHES = {
     "simulated": (simulated_here, simulated_elsewhere, owned_elsewhere),
     "can": (on_can,),
     "dynamixel": (on_serial_ports,),
+    "ethernet": (behind_ethernet,),
+    "pwm": (on_pulses,),
 }
 
 
@@ -229,7 +249,7 @@ def test_a_spare_that_leaves_does_not_damp_the_motors_of_another(device: Device)
             pass
         device.period()
         last = device.plant.commands[-1]
-        assert (last.kp if device.gains else last.tau_ff).all()
+        assert getattr(last, device.holds).all()
 
 
 # --- over shared memory ----------------------------------------------------------------------

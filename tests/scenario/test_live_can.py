@@ -1,4 +1,4 @@
-"""A live run whose motors are on emulated CAN buses: real frames between two processes."""
+"""Live runs whose motors are emulated: real frames, datagrams and transfers between processes."""
 
 from pathlib import Path
 
@@ -12,9 +12,19 @@ from tests.fakes.waiting import eventually
 pytestmark = pytest.mark.live
 
 
-def test_it_walks_by_frames_and_says_how_the_buses_did(tmp_path: Path):
+@pytest.mark.parametrize(
+    ("driver", "said", "emulated"),
+    [
+        ("can", "33 joints", "CAN"),
+        ("ethernet", "33 joints on 5 boards", "Ethernet"),
+        ("pwm", "PWM: 2 joints", "CAN and PWM"),
+    ],
+)
+def test_it_walks_by_frames_and_says_how_the_buses_did(
+    tmp_path: Path, driver: str, said: str, emulated: str
+):
     world = Simulation().world("empty")
-    with LiveRuntime(world, folder=tmp_path, motors="can") as runtime:
+    with LiveRuntime(world, folder=tmp_path, motors=driver) as runtime:
         assert runtime.failure() is None, runtime.failure()
         link = runtime.link
         link.send(WalkTo(stamp_s=link.now_s(), id=link.next_id(), x_m=1.0, y_m=0.0, yaw_rad=0.0))
@@ -25,5 +35,5 @@ def test_it_walks_by_frames_and_says_how_the_buses_did(tmp_path: Path):
             return link.body().X_NB.p[0] > 0.2
 
         assert eventually(walked)  # a busy machine takes its time
-    assert "33 joints" in (tmp_path / "logs" / "controller.log").read_text()
-    assert "emulated CAN: all commands" in (tmp_path / "logs" / "plant.log").read_text()
+    assert said in (tmp_path / "logs" / "controller.log").read_text()
+    assert f"emulated {emulated}: all commands" in (tmp_path / "logs" / "plant.log").read_text()

@@ -20,7 +20,7 @@ from executive.frontends.options import takes
 
 app = typer.Typer(
     no_args_is_help=True,
-    help="Look at real CAN motors and Dynamixel servos, or at emulated ones. "
+    help="Look at real motors (CAN, Dynamixel, Ethernet), or emulated ones. "
     "Only jog and identify enable one.",
 )
 
@@ -47,8 +47,8 @@ def scan(options: Scan) -> None:
 
       humanoid motors scan --map robot/model/juno/dynamixel.yaml --emulated
 
-    Motors of Damiao and RobStride, moteus and Dynamixel servos are found. Exit status 1 where
-    nobody answers, or two answer as one.
+    Motors of Damiao, RobStride and moteus, Dynamixel servos and boards behind Ethernet are found.
+    Exit status 1 where nobody answers, or two answer as one.
     """
     from executive.frontends.motors import commands
 

@@ -97,7 +97,9 @@ def check(asked: Check) -> int:
         return status
     table_screen().print(tables.of_loads(found.loads))
     _tell(found)
-    if found.is_grave:
+    if any(one.code == "assumed" for one in found.findings):
+        say(f"The chips of {found.joints} servos answer{label}; the servos say nothing.")
+    elif found.is_grave:
         say("Not one motor may be enabled before that is put right.")
     else:
         say(f"All {found.joints} motors are what the map says{label}.")

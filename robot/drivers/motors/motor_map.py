@@ -60,6 +60,11 @@ class MotorMap(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
         """Where its buses or ports are, by name."""
         raise NotImplementedError
 
+    @property
+    def linked(self) -> Mapping[str, str]:
+        """The linkage of each joint that is in one."""
+        return {}
+
     def load(self, line: str) -> float:
         """The share of its time that a bus or port is busy."""
         raise NotImplementedError

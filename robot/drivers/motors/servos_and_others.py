@@ -1,9 +1,9 @@
-"""Dynamixel servos, and the motors that another driver moves: one `MotorBus` for all of a robot."""
+"""Servos, and the motors that another driver moves: one `MotorBus` for all of a robot."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple, Self
+from typing import NamedTuple, Protocol, Self
 
 import msgspec
 import numpy as np
@@ -13,13 +13,12 @@ from robot.closing import Closing
 from robot.drivers.motor_bus import Capability, MotorBus, MotorCommand, MotorState
 from robot.drivers.motors.can import driver as can_driver
 from robot.drivers.motors.can import joint_map as can_map
-from robot.drivers.motors.can.driver import CanMotors
 from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.dynamixel import driver as dynamixel_driver
 from robot.drivers.motors.dynamixel import joint_map
-from robot.drivers.motors.dynamixel.driver import DynamixelMotors
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
-from robot.drivers.motors.limiter import FIELDS
+from robot.drivers.motors.limiter import FIELDS, Limiter
+from robot.drivers.motors.motor_map import MotorMap
 from robot.drivers.wiring import Wiring
 from robot.errors import ConfigError, DriverError, Problem
 from robot.messages import MotorAlarm
@@ -72,13 +71,39 @@ def make(wiring: Wiring) -> MotorBus:
     return ServosAndOthers(wiring.robot.motor_names, moved, others)
 
 
-class ServosAndOthers(Closing):
-    """Both as one; CAN sets the pace.
+class Others(MotorBus, Protocol):
+    """A driver of the joints of a map."""
 
-    CAN motors have the shorter watchdogs, and bear the robot: they are written to and left first.
+    @property
+    def joints(self) -> MotorMap:
+        """The map, in the order of every array."""
+        ...
+
+    @property
+    def limiter(self) -> Limiter:
+        """Of its joints."""
+        ...
+
+    def reset(self) -> None:
+        """Forget every alarm."""
+        ...
+
+
+class Servos(Others, Protocol):
+    """One that need not wait, and enables its motors before a command."""
+
+    def arm(self) -> None:
+        """Enable them, unless they are. Raises DriverError if one does not."""
+        ...
+
+
+class ServosAndOthers(Closing):
+    """Both as one; the others set the pace.
+
+    They have the shorter watchdogs, and bear the robot: they are written to and left first.
     """
 
-    def __init__(self, order: Sequence[str], servos: DynamixelMotors, others: CanMotors) -> None:
+    def __init__(self, order: Sequence[str], servos: Servos, others: Others) -> None:
         """Know them; nothing is opened.
 
         Args:

@@ -26,8 +26,22 @@ FIELDS = {
         "rate_hz", "watchdog_s", "others", "ports.head.baud_hz", "joints.head_yaw.port",
         *(f"joints.head_yaw.{key}" for key in _OF_A_MOTOR),
     ),
+    "ethernet": (
+        "rate_hz", "watchdog_s", "uplink_hz", "boards.left_leg.number", "boards.left_leg.port",
+        "boards.left_leg.link_hz", "boards.left_leg.turn_s", "joints.left_knee.board", "linkages",
+        *(f"joints.left_knee.{key}" for key in _OF_A_MOTOR),
+    ),
+    "pwm": (
+        "rate_hz", "watchdog_s", "others", "chips.hat.bus", "chips.hat.address",
+        "chips.hat.frame_hz", "chips.hat.oscillator_hz", "chips.hat.bus_hz", "joints.head_yaw.chip",
+        "joints.head_yaw.pulse_us", "joints.head_yaw.travel_rad", "joints.head_yaw.start_rad",
+        *(f"joints.head_yaw.{key}" for key in _OF_A_MOTOR),
+    ),
 }  # fmt: skip
-PLACES = {"can": "buses.left_leg.channel", "dynamixel": "ports.head.device"}
+PLACES = {
+    "can": "buses.left_leg.channel", "dynamixel": "ports.head.device",
+    "ethernet": "boards.left_leg.address", "pwm": "chips.hat.emulated",
+}  # fmt: skip
 DEVICES = {
     "zero": "/dev/zero", "terminal": "/dev/tty", "up": "../../../../dev/zero", "escape": ESCAPE,
     "outside": "@OUTSIDE@/secret.txt", "url": "socket://example.org:80", "long": "d" * 10_000,

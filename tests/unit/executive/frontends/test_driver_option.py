@@ -13,7 +13,10 @@ from robot.errors import ConfigError
     [
         ("can", "motors on buses are driven in live runs only"),
         ("cann", "motors have no driver 'cann' (did you mean 'can'?)"),
-        ("pigeon", "motors have no driver 'pigeon' (valid: can, dynamixel, simulated)"),
+        (
+            "pigeon",
+            "motors have no driver 'pigeon' (valid: can, dynamixel, ethernet, pwm, simulated)",
+        ),
     ],
 )
 def test_what_cannot_drive_these_motors_is_refused(tmp_path, monkeypatch, command, driver, said):

@@ -36,9 +36,9 @@ def test_it_says_how_full_the_buses_get_and_that_they_are_emulated(robot):
 
 def test_an_unknown_driver_is_refused_with_those_that_there_are(robot):
     with pytest.raises(
-        ConfigError, match=r"no driver 'ethercat' \(valid: can, dynamixel, simulated\)"
+        ConfigError, match=r"no driver 'modbus' \(valid: can, dynamixel, ethernet, pwm, simulated\)"
     ):
-        motor_choice.checked(robot, "ethercat")
+        motor_choice.checked(robot, "modbus")
     with pytest.raises(ConfigError, match="did you mean 'can'"):
         motor_choice.checked(robot, "cann")
 

@@ -5,24 +5,25 @@ with a cure; that no motor ever gives more than its joint may, before and after;
 latched ends by a reset alone. What each row stands for is in docs/safety.md.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 import pytest
 
 from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.dynamixel.joint_map import JointServo, Port, ServoMap
+from robot.drivers.motors.pwm.joint_map import Chip, JointPulse, PulseMap
 from sim.devices import moteus
 from sim.devices.can_motor import CanMotor
 from sim.devices.damiao import Damiao
 from sim.devices.moteus import Moteus
 from sim.devices.robstride import RESET, RUN, RobStride
 from sim.devices.shaft import FreeShaft
-from tests.fakes import can_rig, dynamixel_rig
+from tests.fakes import can_rig, dynamixel_rig, ethernet_rig, pwm_rig
 
-AnyRig: TypeAlias = can_rig.Rig | dynamixel_rig.Rig
+AnyRig: TypeAlias = can_rig.Rig | dynamixel_rig.Rig | ethernet_rig.Rig | pwm_rig.Rig
 
 WARM_UP, AFTER = 150, 60
 WHO = "joint0_1"
@@ -62,8 +63,76 @@ def servos() -> dynamixel_rig.Rig:
     )  # fmt: skip
 
 
+def boards() -> ethernet_rig.Rig:
+    """Two boards with two joints each, 500 Hz."""
+    return ethernet_rig.Rig(ethernet_rig.limbs(2, 2), is_still=True)
+
+
+def pulses() -> pwm_rig.Rig:
+    """A chip with two hobby servos, 50 frames a second."""
+    return pwm_rig.Rig(
+        PulseMap(
+            chips={"hat": Chip()},
+            joints={
+                f"joint0_{j}": JointPulse(
+                    chip="hat", model="DS3225", id=j, pulse_us=(500.0, 2500.0), travel_rad=3.0,
+                    lower_rad=-1.4, upper_rad=1.4, velocity_limit_rad_s=4.0, torque_limit_nm=2.0,
+                )
+                for j in range(2)
+            },
+        )
+    )  # fmt: skip
+
+
+def motors_of(rig: AnyRig) -> Mapping[str, Any]:
+    """By joint, of whatever family."""
+    if isinstance(rig, can_rig.Rig):
+        return rig.bench.motors
+    return rig.bench.drives if isinstance(rig, ethernet_rig.Rig) else rig.bench.servos
+
+
 def motor_of(rig: AnyRig):
-    return rig.bench.motors[WHO] if isinstance(rig, can_rig.Rig) else rig.bench.servos[WHO]
+    return motors_of(rig)[WHO]
+
+
+def sets_cable(name: str, value: object) -> Callable[[AnyRig], None]:
+    """Something of the way to the motor's board; `board.` of the board itself."""
+
+    def inject(rig: AnyRig) -> None:
+        assert isinstance(rig, ethernet_rig.Rig)
+        thing = rig.cable(WHO)
+        *path, last = name.split(".")
+        for part in path:
+            thing = getattr(thing, part)
+        setattr(thing, last, value)
+
+    return inject
+
+
+def loses_its_power(rig: AnyRig) -> None:
+    assert isinstance(rig, ethernet_rig.Rig)
+    rig.cable(WHO).board.restart(rig.clock.now_s())
+
+
+def refuses(rig: AnyRig) -> None:
+    assert isinstance(rig, pwm_rig.Rig)
+    rig.bench.buses["hat"].trouble.refuses = 5
+
+
+def chip_goes(rig: AnyRig) -> None:
+    assert isinstance(rig, pwm_rig.Rig)
+    rig.bench.chips["hat"].is_powered = False
+
+
+def browns_out(rig: AnyRig) -> None:
+    assert isinstance(rig, pwm_rig.Rig)
+    rig.bench.chips["hat"].power_up()
+
+
+def is_flooded(rig: AnyRig) -> None:
+    assert isinstance(rig, ethernet_rig.Rig)
+    for _ in range(20):
+        rig.ports[0].inject("board0", bytes(60))
 
 
 def sets(name: str, value: object) -> Callable[[AnyRig], None]:
@@ -89,6 +158,7 @@ def warms(rig: AnyRig) -> None:
 
 def goes_away(rig: AnyRig) -> None:
     name = "bus0" if isinstance(rig, can_rig.Rig) else "port0"
+    name = "board0" if isinstance(rig, ethernet_rig.Rig) else name
     rig.ports[0].gone[name] = "it was pulled out"
 
 
@@ -119,6 +189,8 @@ def stands_still(rig: AnyRig) -> None:
     rig.clock.sleep_until(rig.clock.now_s() + 0.06)
     if isinstance(rig, can_rig.Rig):
         rig.bench.advance(rig.clock.now_s())
+    elif isinstance(rig, ethernet_rig.Rig):
+        rig.bench.live(rig.clock.now_s())
 
 
 @dataclass(frozen=True)
@@ -200,6 +272,32 @@ FAULTS = [
     Fault("servo_noisy_line", servos, sets("trouble.spoils", 1000), "noisy", Level.WARN, 251,
           "port0"),
     Fault("servo_warm", servos, warms, "warm", Level.DERATE, 51),
+    Fault("net_three_losses", boards, sets_cable("trouble.loses", 5), "silent", Level.HOLD, 3),
+    Fault("net_late_answers", boards, sets_cable("trouble.later_s", 0.003), "silent", Level.HOLD,
+          3),
+    Fault("net_not_a_number", boards, sets("trouble.not_a_number", True), "silent", Level.HOLD, 3),
+    latched("net_silent_board", boards, sets_cable("board.trouble.silent", True), "silent", 10),
+    latched("net_other_version", boards, sets_cable("board.trouble.old_version", True), "silent",
+            10),
+    latched("net_time_stands_still", boards, sets_cable("board.trouble.frozen_us", 0), "silent",
+            11),
+    Fault("net_over_current", boards, sets("trouble.faults", 1 << 2), "over_current", Level.HOLD,
+          2),
+    Fault("net_overload", boards, sets("trouble.faults", 1 << 6), "overload", Level.HOLD, 2),
+    latched("net_encoder", boards, sets("trouble.faults", 1 << 5), "encoder", 2),
+    latched("net_winding_at_its_limit", boards, sets("winding_c", 121.0), "winding_hot", 2),
+    latched("net_undervoltage", boards, sets_cable("board.volts", 30.0), "under_voltage", 2),
+    latched("net_overvoltage", boards, sets_cable("board.volts", 70.0), "over_voltage", 2),
+    latched("net_disabled_by_somebody", boards, sets("state", 0), "disabled", 2),
+    latched("net_watchdog_expired", boards, stands_still, "lost_communication", 2, "board0"),
+    latched("net_board_without_power", boards, loses_its_power, "restarted", 2, "board0"),
+    latched("net_encoder_jump", boards, jumps, "encoder_jump", 3),
+    latched("net_board_unplugged", boards, goes_away, "unplugged", 1, "board0"),
+    Fault("net_flooded", boards, is_flooded, "noisy", Level.WARN, 501, "board0"),
+    Fault("net_warm", boards, warms, "warm", Level.DERATE, 1),
+    Fault("pwm_refused_writes", pulses, refuses, "i2c_refused", Level.HOLD, 45, "hat"),
+    latched("pwm_chip_gone", pulses, chip_goes, "i2c_refused", 115, "hat"),
+    latched("pwm_chip_without_power", pulses, browns_out, "restarted", 115, "hat"),
 ]  # fmt: skip
 
 
@@ -213,11 +311,7 @@ class Watched:
     def cycle(self, periods: int = 1):
         for _ in range(periods):
             state = self.rig.cycle(1, q=0.3)
-            motors = (
-                self.rig.bench.motors
-                if isinstance(self.rig, can_rig.Rig)
-                else self.rig.bench.servos
-            )
+            motors = motors_of(self.rig)
             for name, one in self.rig.joints.joints.items():
                 share = abs(motors[name].tau_nm) * one.gear / one.torque_limit_nm
                 self.worst = max(self.worst, share)
@@ -252,6 +346,8 @@ def test_a_fault_is_named_at_its_level_in_time_and_no_motor_gives_more_than_it_m
         assert at_work.worst <= 1.01
         assert np.isfinite(driver.write(rig.hold(0.3)).tau_ff).all()
         driver.read()
+        if isinstance(rig, pwm_rig.Rig):
+            heal(rig)  # a chip that does not answer is not seen to let go, which is an error
 
 
 @pytest.mark.parametrize(
@@ -275,6 +371,10 @@ def test_what_is_latched_stays_when_its_cause_has_gone_and_ends_by_a_reset(fault
 
 def heal(rig: AnyRig) -> None:
     """As a person does it who found the cause: it is gone, and the motor was off and on again."""
+    if isinstance(rig, pwm_rig.Rig):
+        rig.bench.chips["hat"].is_powered = True
+        rig.bench.chips["hat"].power_up()
+        return
     motor = motor_of(rig)
     motor.trouble = type(motor.trouble)()
     motor.winding_c = 30.0
@@ -285,18 +385,26 @@ def heal(rig: AnyRig) -> None:
     elif isinstance(motor, Moteus):
         motor.volts, motor.driver_c, motor.is_blind = 24.0, 30.0, False
         motor.reboot()
+    elif isinstance(rig, ethernet_rig.Rig):
+        cable = rig.cable(WHO)
+        cable.heal()
+        cable.board.volts = 48.0
+        cable.board.restart(rig.clock.now_s())
     else:
         motor.volts = motor.kind.volts
         motor.reboot()
 
 
-@pytest.mark.parametrize("make", [can, robstrides, moteuses, servos])
+@pytest.mark.parametrize("make", [can, robstrides, moteuses, servos, boards])
 def test_losses_that_end_let_joints_go_on_where_they_are_sent(make):
     rig = make()
     with rig.driver as driver:
         Watched(rig).cycle(WARM_UP)
         servo = motor_of(rig)
-        setattr(servo.trouble, "loses" if isinstance(servo, CanMotor) else "spoils", 4)
+        if isinstance(rig, ethernet_rig.Rig):
+            rig.cable(WHO).trouble.loses = 4
+        else:
+            setattr(servo.trouble, "loses" if isinstance(servo, CanMotor) else "spoils", 4)
         Watched(rig).cycle(4)
         assert driver.alarms.level == Level.HOLD
         Watched(rig).cycle(4)
@@ -305,13 +413,16 @@ def test_losses_that_end_let_joints_go_on_where_they_are_sent(make):
         assert not sent.alarms
 
 
-@pytest.mark.parametrize("make", [can, robstrides, moteuses, servos])
+@pytest.mark.parametrize("make", [can, robstrides, moteuses, servos, boards])
 def test_at_hold_nothing_new_is_obeyed_and_at_sit_commands_pass_to_what_is_left(make):
     rig = make()
     well = 3  # a joint on the other bus or port
     with rig.driver as driver:
         before = Watched(rig).cycle(WARM_UP).q[well]
-        motor_of(rig).trouble.silent = True
+        if isinstance(rig, ethernet_rig.Rig):
+            rig.cable(WHO).board.trouble.silent = True
+        else:
+            motor_of(rig).trouble.silent = True
         Watched(rig).cycle(3)
         assert driver.alarms.level == Level.HOLD
         while driver.alarms.level == Level.HOLD:

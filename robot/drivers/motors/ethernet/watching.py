@@ -1,0 +1,214 @@
+"""Looks at what boards tell, period by period, and sounds alarms."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+
+import numpy as np
+
+from robot.drivers.motors.alarms import BY_STATUS, Alarm, Alarms, Kind, Level
+from robot.drivers.motors.ethernet.datagrams import FLAGS_EXPIRED, FLAGS_OTHERS, State
+from robot.drivers.motors.ethernet.interview import faults_of
+from robot.drivers.motors.ethernet.joint_map import DriveMap
+from robot.drivers.motors.ethernet.reception import FromBoard, Reception
+from robot.drivers.motors.watching import UNPLUGGED, JointAlarms
+from robot.se3 import Array
+
+FULL_S = 0.010
+IMPOSSIBLE_PERIODS = 3
+UNKNOWN = 1000
+"""Periods without an answer, of one that never came."""
+NOISY_S, NOISY_DATAGRAMS = 1.0, 5
+"""So many refused datagrams of a board in so long."""
+
+STRAINED = Kind(
+    "its fault",
+    Level.HOLD,
+    f"a drive reports {', '.join(BY_STATUS).replace('_', '-')}",
+    "1 period",
+)
+FAULT = Kind(
+    "its fault",
+    Level.SIT,
+    "a drive reports another fault, or that somebody disabled it",
+    "1 period",
+    is_latched=True,
+)
+EXPIRED = Kind(
+    "lost_communication",
+    Level.SIT,
+    "a board had no command for its watchdog's time: its joints brake until they are armed again",
+    "1 period",
+    is_latched=True,
+)
+RESTARTED = Kind(
+    "restarted",
+    Level.SIT,
+    "a board's own time went back: it was without power",
+    "1 period",
+    is_latched=True,
+)
+OTHERS = Kind(
+    "commanded_by_another",
+    Level.SIT,
+    "a board obeys another program than this one",
+    "1 period",
+    is_latched=True,
+)
+IMPOSSIBLE = Kind(
+    "linkage",
+    Level.SIT,
+    f"cranks of a linkage stood where its joints cannot be, {IMPOSSIBLE_PERIODS} periods in a row",
+    f"{IMPOSSIBLE_PERIODS} periods",
+    is_latched=True,
+)
+FULL = Kind(
+    "queue_full",
+    Level.WARN,
+    "the system takes no datagrams for a board; none is queued, the next one is newer",
+    f"{1000 * FULL_S:g} ms",
+)
+NOISY = Kind(
+    "noisy",
+    Level.WARN,
+    f"{NOISY_DATAGRAMS} datagrams of a board in {NOISY_S:g} s were refused: twice, spoilt, of "
+    "another version, from a strange address (late ones count as lost)",
+    f"{NOISY_S:g} s",
+)
+KINDS = (STRAINED, FAULT, EXPIRED, RESTARTED, OTHERS, IMPOSSIBLE, FULL, NOISY)
+"""What only motors behind Ethernet have."""
+
+
+class Watch:
+    """Of all joints of a map.
+
+    Attributes:
+        joints: what every family looks at.
+    """
+
+    def __init__(self, joints: DriveMap, alarms: Alarms) -> None:
+        """Sounds these alarms."""
+        self._alarms, self._map = alarms, joints
+        self._motors = list(joints.joints.values())
+        self.joints = JointAlarms(joints, alarms)
+        self._refused: dict[str, Counter[str]] = {}
+        self._restarts: dict[str, int] = {}
+        self._noisy_s = -np.inf
+
+    def forget(self) -> None:
+        """Begin to look anew."""
+        self.joints.forget()
+        self._restarts.clear()
+
+    def unplugged(self, board: str, why: str) -> None:
+        """There is no way to a board any more."""
+        cure = "plug it in, see that the network is up (ip address show), and start again"
+        self._alarms.sound(UNPLUGGED.alarm(board, why, cure))
+
+    def linkage(self, name: str, periods: int) -> None:
+        """For so many periods in a row its cranks stood where its joints cannot be."""
+        if periods >= IMPOSSIBLE_PERIODS:
+            text = f"its cranks stand where its joints cannot be, {periods} periods in a row"
+            cure = "look for a loose rod or crank, or measure the linkage again"
+            self._alarms.sound(IMPOSSIBLE.alarm(name, text, cure))
+
+    def full(self, board: str, for_s: float) -> None:
+        """The system takes nothing for a board, for so long by now; 0: it does."""
+        if for_s >= FULL_S:
+            text = f"nothing could be sent to it for {1000 * for_s:.0f} ms"
+            cure = "is its cable plugged in? what else is sent over this network?"
+            self._alarms.sound(FULL.alarm(board, text, cure))
+        elif not for_s:
+            self._alarms.quiet("queue_full", board)
+
+    def look(
+        self, now_s: float, heard: Reception, q: Array, qd: Array, *,
+        strangers: Mapping[str, int], is_armed: bool,
+    ) -> None:  # fmt: skip
+        """A period ended.
+
+        Args:
+            now_s: when.
+            heard: what boards told.
+            q: angles of the joints, shape (n,).
+            qd: their speeds, shape (n,).
+            strangers: datagrams of each board's socket that came from somewhere else.
+            is_armed: whether the joints were enabled from here.
+        """
+        # Before its first answer a joint stands nowhere: from there to where it is nothing moved.
+        unknown = np.where(np.isfinite(heard.heard_s), heard.misses, UNKNOWN)
+        self.joints.speeds.feel(now_s, q, qd, unknown)
+        is_odd = bool(heard.faults.any()) or bool((heard.state != State.ENABLED).any())
+        if self.joints.are_due(
+            misses=heard.misses, jumps=heard.jumps, temperature_c=heard.temperature_c, is_odd=is_odd
+        ):
+            for index in range(len(self._motors)):
+                self.joints.sound(index, self._of_one(index, heard, is_armed=is_armed))
+        for name, board in heard.boards.items():
+            self._board(name, board, is_armed=is_armed)
+        if now_s - self._noisy_s >= NOISY_S:
+            self._noisy_s = now_s
+            for name, board in heard.boards.items():
+                refused = Counter[str](board.refused)
+                refused["source"] = strangers.get(name, 0)
+                refused["late"] = 0
+                self._noise(name, refused)
+
+    def _of_one(self, index: int, heard: Reception, *, is_armed: bool) -> list[Alarm]:
+        one, name, looks = self._motors[index], self.joints.names[index], self.joints
+        motor = f"slot {one.id} of the board {one.board}"
+        cure = "check the board's power, its cable, and the switch"
+        return [
+            *looks.silence(index, int(heard.misses[index]), motor, cure),
+            *self._fault(
+                name, int(heard.state[index]), int(heard.faults[index]), is_armed=is_armed
+            ),
+            *looks.heat(index, float(heard.temperature_c[index])),
+            *looks.motion(index, int(heard.jumps[index]), "compare its gear with the map"),
+        ]
+
+    def _fault(self, name: str, state: int, bits: int, *, is_armed: bool) -> list[Alarm]:
+        cure = "find out why; then switch the board off and on"
+        if faults := faults_of(bits):
+            return [
+                (STRAINED if fault in BY_STATUS else FAULT).alarm(
+                    name, f"reports {fault.replace('_', ' ')}", cure, code=fault
+                )
+                for fault in faults
+            ]
+        if is_armed and state == State.DISABLED:
+            text = "its drive is disabled"
+            return [FAULT.alarm(name, text, "somebody else disabled it", code="disabled")]
+        if is_armed and state not in (State.ENABLED, State.BRAKING):
+            text = f"its drive is in a state that is not known ({state})"
+            return [FAULT.alarm(name, text, "look at its firmware", code="unknown_state")]
+        return []
+
+    def _board(self, name: str, board: FromBoard, *, is_armed: bool) -> None:
+        restarts = self._restarts.setdefault(name, board.restarts)
+        if not is_armed:
+            self._restarts[name] = board.restarts
+            return
+        if board.restarts > restarts:
+            text = "it was without power and has begun anew"
+            self._alarms.sound(RESTARTED.alarm(name, text, "look at its supply and its plug"))
+        if board.flags & FLAGS_EXPIRED:
+            text = f"it had no command for {1000 * self._map.watchdog_s:g} ms, and brakes"
+            cure = "why was the computer or the network busy? start again"
+            self._alarms.sound(EXPIRED.alarm(name, text, cure))
+        if board.flags & FLAGS_OTHERS:
+            text = "it obeys another program"
+            self._alarms.sound(OTHERS.alarm(name, text, "end the other one, and start again"))
+
+    def _noise(self, name: str, refused: Counter[str]) -> None:
+        before = self._refused.get(name, Counter[str]())
+        self._refused[name] = refused
+        new: Counter[str] = refused - before
+        if new.total() >= NOISY_DATAGRAMS:
+            words = ", ".join(f"{count} {reason}" for reason, count in new.most_common())
+            text = f"{new.total()} datagrams refused in {NOISY_S:g} s: {words.replace('_', ' ')}"
+            cure = "is it a network of its own, and who else sends on it?"
+            self._alarms.sound(NOISY.alarm(name, text, cure))
+        else:
+            self._alarms.quiet("noisy", name)
