@@ -7,7 +7,8 @@ from robot.drivers.motors.pwm.chips import Health
 from robot.drivers.motors.pwm.joint_map import PulseMap
 
 HOLD_FAILURES, DEAD_FAILURES = 3, 10
-STUCK_FRAMES = 3
+SLOW_FRAMES, STUCK_S = 3, 0.5
+"""A busy computer lets a thread wait for some frames; Linux gives a held bus up after 1 s."""
 
 REFUSED = Kind(
     "i2c_refused",
@@ -22,11 +23,17 @@ DEAD = Kind(
     f"{DEAD_FAILURES} frames",
     is_latched=True,
 )
+SLOW = Kind(
+    "i2c_stuck",
+    Level.HOLD,
+    f"a write has not ended for {SLOW_FRAMES} frames",
+    f"{SLOW_FRAMES} frames",
+)
 STUCK = Kind(
     "i2c_stuck",
     Level.SIT,
-    f"a write has not ended for {STUCK_FRAMES} frames: somebody holds the bus",
-    f"{STUCK_FRAMES} frames",
+    f"a write has not ended for {STUCK_S:g} s: somebody holds the bus",
+    f"{STUCK_S:g} s",
     is_latched=True,
 )
 RESTARTED = Kind(
@@ -36,7 +43,7 @@ RESTARTED = Kind(
     "10 frames",
     is_latched=True,
 )
-KINDS = (REFUSED, DEAD, STUCK, RESTARTED)
+KINDS = (REFUSED, DEAD, SLOW, STUCK, RESTARTED)
 """What only hobby servos have, and all that they have: they measure nothing."""
 
 
@@ -57,9 +64,12 @@ class Watch:
             alarms.sound(kind.alarm(chip, text, cure))
         else:
             alarms.quiet("i2c_refused", chip)
-        if health.waits_s >= STUCK_FRAMES * where.frame_s:
+        if health.waits_s >= SLOW_FRAMES * where.frame_s:
+            kind = STUCK if health.waits_s >= STUCK_S else SLOW
             text = f"a write has not ended for {1000 * health.waits_s:.0f} ms"
-            alarms.sound(STUCK.alarm(chip, text, "switch off what holds SDA or SCL down"))
+            alarms.sound(kind.alarm(chip, text, "switch off what holds SDA or SCL down"))
+        else:
+            alarms.quiet("i2c_stuck", chip)
         if health.has_restarted:
             text = "it was without power, and gives no pulses"
             alarms.sound(RESTARTED.alarm(chip, text, "look at its supply: servos draw amperes"))
