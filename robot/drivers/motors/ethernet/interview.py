@@ -148,7 +148,10 @@ def at_joints(
         if unsolved:
             names = joints.linkages[linkage].joints
             rows[:, [name in names for name in joints.joints]] = math.nan
-    return {name: (row[0], row[1], row[2]) for name, row in zip(joints.joints, rows.T, strict=True)}
+    return {
+        name: (row[0], row[1], row[2])
+        for name, row in zip(joints.joints, rows.T.tolist(), strict=True)
+    }
 
 
 def verdicts(joints: DriveMap, answers: Mapping[str, Answers]) -> list[Finding]:

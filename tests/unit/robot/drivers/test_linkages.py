@@ -7,13 +7,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robot.bringup import motor_bench
+from robot.bringup import ethernet_tools, motor_bench
 from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.ethernet import joint_map
 from robot.drivers.motors.ethernet.joint_map import DriveMap
 from robot.drivers.motors.linkage import Belts, Rod, Rods, needed, solved
 from robot.drivers.motors.transmission import Transmission
 from robot.errors import ConfigError, DriverError
+from sim.devices.ethernet_bench import DirectPorts
 from tests.fakes.ethernet_rig import Rig
 
 ANKLE = Rods(
@@ -263,6 +264,17 @@ def test_two_motors_bring_both_joints_where_they_are_sent(joints):
         pitch, roll = (rig.drive(name).shaft.q_rad for name in ("pitch", "roll"))
         assert pitch == pytest.approx(-2.0 * (cranks[0] - 0.2), abs=0.01)
         assert roll == pytest.approx(1.5 * cranks[1], abs=0.01)
+
+
+def test_a_reading_tells_joints_and_a_program_can_have_it(joints):
+    rig = Rig(joints, is_still=True)
+    with DirectPorts(rig.bench, rig.clock) as ports:
+        rows = ethernet_tools.readings(ports, rig.clock, joints)
+    told = {row["joint"]: row for row in msgspec.json.decode(msgspec.json.encode(rows))}
+    assert told["pitch"]["q_rad"] == pytest.approx(-0.1, abs=1e-3)
+    assert told["roll"]["q_rad"] == pytest.approx(0.0, abs=1e-3)
+    assert told["toe"]["q_rad"] == pytest.approx(0.05, abs=1e-3)
+    assert told["toe"]["supply_v"] == pytest.approx(48.0)
 
 
 def test_a_crank_that_slipped_is_seen_where_no_joints_can_be(joints):
