@@ -12,7 +12,7 @@ import struct
 from collections.abc import Callable
 
 from sim.devices.can_motor import SAME_S, CanMotor, Flaw
-from sim.devices.moteus_console import Console
+from sim.devices.moteus_console import MotorConsole
 from sim.devices.shaft import LET_GO, Order
 from sim.devices.wire import CanFrame
 
@@ -61,7 +61,7 @@ class Moteus(CanMotor):
         super().__post_init__()
         self.mode, self.fault, self.homed, self.wanted = STOPPED, 0, 2, STOPPED
         self.command = dict(_UNSPECIFIED)
-        self.console = Console(self._position_turns)
+        self.console = MotorConsole(self._position_turns)
         self.has_timeout, self.is_blind = True, False
         self._in_position: dict[int, float] | None = None
         self._commanded_s = self._began_s = self._lived_s

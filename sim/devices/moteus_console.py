@@ -17,7 +17,7 @@ DELIVERED: dict[str, float] = {
 """Settings as a motor has them that somebody calibrated, and whose gains nobody touched."""
 
 
-class Console:
+class MotorConsole:
     """Lines in, lines out.
 
     Attributes:

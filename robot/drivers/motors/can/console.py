@@ -29,7 +29,7 @@ class Needs(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Console:
+class MotorConsole:
     """How motors of a family are spoken to, and about what.
 
     Attributes:

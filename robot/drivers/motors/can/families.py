@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from robot.drivers.motors.can import mit11, mit11_arrays, moteus, moteus_settings, robstride
-from robot.drivers.motors.can.console import Console
+from robot.drivers.motors.can.console import MotorConsole
 from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.moteus_arrays import ManyMoteus
 from robot.drivers.motors.can.robstride_arrays import ManyRobStrides
@@ -65,7 +65,7 @@ class Asking:
     """
 
     settings: Settings
-    console: Console | None = None
+    console: MotorConsole | None = None
     refresh: Callable[[int], Frame]
     read: Callable[[int, int], Frame]
     write: Callable[[int, int, float], Frame]
@@ -230,7 +230,7 @@ _MOTEUS = Family(
         read=moteus.read_register,
         write=moteus.write_register,
         reply=moteus.register_reply,
-        console=Console(
+        console=MotorConsole(
             say=moteus.say,
             ask=moteus.ask_console,
             reply=moteus.console_reply,

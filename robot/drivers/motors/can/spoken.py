@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import NamedTuple, TypeAlias
 
-from robot.drivers.motors.can.console import Console
+from robot.drivers.motors.can.console import MotorConsole
 from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.ports import Heard
 
@@ -27,7 +27,7 @@ class Speaker(NamedTuple):
 
     bus: str
     id: int
-    console: Console
+    console: MotorConsole
 
 
 Exchanges: TypeAlias = Callable[[list[tuple[str, Frame]], Callable[[Heard], None]], None]
