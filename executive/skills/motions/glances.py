@@ -7,6 +7,7 @@ seen well is for the world model to say, and what was not is gone to as planned.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.obstructions import between, clearance_m
@@ -50,7 +51,7 @@ def glance(body: Body, survey: Survey) -> Vector3 | None:
     return None
 
 
-def _best(bearings: Array, worth: Array, left: Array) -> int:
+def _best(bearings: Array, worth: Array, left: NDArray[np.bool_]) -> int:
     """The point about whose direction most of what is left shows."""
     rows = np.flatnonzero(left)
     together = np.abs(bearings[rows][:, None] - bearings[rows][None, :]) < CONE_RAD
