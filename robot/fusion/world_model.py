@@ -2,7 +2,8 @@
 
 An object in a closed hand goes where the hand goes: the fingers are as far apart as it is wide, and
 it is between them. Once they have come to rest on it their own opening says whether they still have
-it: how wide it looks changes with every look.
+it: how wide it looks changes with every look. Fingers that are as far apart as they go hold
+nothing, however wide a thing between them is.
 """
 
 from __future__ import annotations
@@ -45,11 +46,20 @@ FORGET_S = 20.0
 
 @dataclass(frozen=True, slots=True)
 class Hand:
-    """One hand: its grasp frame in W, how far apart its fingers are, and what they are like."""
+    """One hand: its grasp frame in W, how far apart its fingers are, and what they are like.
+
+    `most_m`: how far apart they go.
+    """
 
     X_WG: SE3
     opening_m: float
     gripping: Gripping
+    most_m: float
+
+    @property
+    def is_open(self) -> bool:
+        """Whether they are as far apart as they go: the widest thing to take is narrower."""
+        return self.opening_m > self.most_m - 0.5 * self.gripping.spare_m
 
 
 class Hold(NamedTuple):
@@ -244,6 +254,8 @@ def _place(
 def _hold(hands: Mapping[Side, Hand], shape: Shape, X_WO: SE3) -> Hold | None:
     """The hand that has an object between its fingers, and the object in it."""
     for side, hand in hands.items():
+        if hand.is_open:  # though about as wide as a can of 8.5 cm
+            continue
         X_GO = hand.X_WG.inverse() @ X_WO
         within = _inside(shape, X_GO).away_m < hand.gripping.held_within_m
         if within and _fits(hand, shape, X_GO):
@@ -256,6 +268,8 @@ def _still(hold: Hold, hand: Hand, shape: Shape) -> Hold | None:
 
     Until they rest they are as far apart as it looks wide, then as they were when they came to it.
     """
+    if hand.is_open:
+        return None
     if hold.rests and abs(hand.opening_m - hold.opening_m) < hand.gripping.gap_m:
         return hold
     if not _fits(hand, shape, hold.X_GO):

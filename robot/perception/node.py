@@ -281,7 +281,12 @@ class PerceptionNode(Closing):
         robot = self._body.description
         self._world.feel(
             {
-                side: Hand(X_WN @ hand.X_NG, hand.opening_m, robot.handy.gripping)
+                side: Hand(
+                    X_WN @ hand.X_NG,
+                    hand.opening_m,
+                    robot.handy.gripping,
+                    robot.hands[side].max_opening_m,
+                )
                 for side, hand in newest.hands.items()
             }
         )

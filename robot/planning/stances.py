@@ -39,7 +39,8 @@ CHUNK = 6000
 OPTION_SHARE = 0.5
 """Of the candidates of a posture: so many are kept for every grasp alike, whatever it costs."""
 NEAR_PEOPLE_M, NEAR_PEOPLE_COST = 0.6, 1.0
-"""Of a hand that is raised, or at work, so near to somebody's outline: within 0.5 m it stops."""
+"""Of a hand that is raised, or at work, or hangs, so near to somebody's outline: within 0.5 m it
+stops. Hands hang at the body's sides, and sway up to who stands beside its stance."""
 RAISED_AHEAD_M, RAISED_ASIDE_M = 0.30, 0.25
 """About where a raised hand is, from the standoff."""
 JITTER = 0.12
@@ -170,6 +171,8 @@ def propose(
     total = len(cost)
     walk = np.hypot(stance[:, 0] - start[0], stance[:, 1] - start[1])
     cost = cost + reference_cost[tags[:, 1]] + walk_cost_per_m * walk
+    cost = cost + NEAR_PEOPLE_COST * _is_near(people, references[:, :2])[tags[:, 1]]
+    cost = cost + NEAR_PEOPLE_COST * _is_near(people, stance[:, :2])
     cost = cost + JITTER * np.random.default_rng(seed).random(total)
     order = np.argsort(cost, kind="stable")
     standoffs = _Standoffs(floor, start, radius_m, reaching)
@@ -190,7 +193,6 @@ def propose(
         cost[rows[tight]] += TIGHT_COST
         rows, back = rows[back > 0.0], back[back > 0.0]
         sign = np.where(tags[rows, 3] == 1, 1.0, -1.0)
-        cost[rows] += NEAR_PEOPLE_COST * _is_near(people, references[tags[rows, 1], :2])
         cost[rows] += NEAR_PEOPLE_COST * _is_near(people, _raised(stance[rows], back, sign))
         inside = _within(tags[rows, 2] * len(options) + tags[rows, 0], share)
         others = np.flatnonzero(~inside)

@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import step_to
-from executive.skills.motions.free_floor import may_stand, nearest_thing
+from executive.skills.motions.free_floor import may_stand, nearest_thing, things_around
+from executive.skills.motions.obstructions import may_step
 from executive.skills.motions.personal_space import CLEAR_M, ZONE_M, somebody_near
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.script import Script
@@ -45,8 +46,8 @@ def make_way(body: Body, person: PersonInfo) -> Script[bool]:
     """
     room_m = body.description.body_radius_m + body.description.walking.room.beside_m
     for clear_m in WAY_OUT_M:
-        X_WS_goal = _retreat(body, body.X_WS.p, person, clear_m=clear_m)
-        if X_WS_goal is not None and nearest_thing(body, X_WS_goal.p)[1] >= room_m:
+        X_WS_goal = _retreat(body, body.X_WS.p, person, clear_m=clear_m, room_m=room_m)
+        if X_WS_goal is not None:
             yield from _step_back(body, person, X_WS_goal)
             return True
     return False
@@ -60,8 +61,13 @@ def _step_back(body: Body, person: PersonInfo, X_WS_goal: SE3 | None) -> Script[
     body.phase = before
 
 
-def _retreat(body: Body, p_W: Sequence[float], person: PersonInfo, *, clear_m: float) -> SE3 | None:
-    """The nearest stance at which what is at a point now is clear of them; straight back first."""
+def _retreat(
+    body: Body, p_W: Sequence[float], person: PersonInfo, *, clear_m: float, room_m: float = 0.0
+) -> SE3 | None:
+    """The nearest stance at which what is at a point now is clear of them; straight back first.
+
+    With `room_m` free about it, and on the way there no less than that or than there is now.
+    """
     X_WS, hand = body.X_WS, p_W
     x_m, y_m, _ = body.X_WPerson(person.id).p
     away_rad = math.atan2(X_WS.p[1] - y_m, X_WS.p[0] - x_m)
@@ -73,9 +79,25 @@ def _retreat(body: Body, p_W: Sequence[float], person: PersonInfo, *, clear_m: f
             point = (X_WS.p[0] + back_m * cos, X_WS.p[1] + back_m * sin)
             if not may_stand(body, point, but=person):
                 break
-            if free_m >= clear_m:
+            if free_m >= clear_m and _has_room(body, point, room_m=room_m):
                 return SE3((*point, 0.0), X_WS.quat_wxyz)
     return None
+
+
+def _has_room(body: Body, point: Sequence[float], *, room_m: float) -> bool:
+    """Whether a stance and the way there have room for arms that sway.
+
+    Steps aside are fewer and done before the others: the way leads around a corner.
+    """
+    if nearest_thing(body, point)[1] < room_m:
+        return False
+    X_WS = body.X_WS
+    aside_m = (X_WS.inverse() @ SE3((point[0], point[1], 0.0))).p[1]
+    x_m, y_m, _ = (X_WS @ SE3((0.0, aside_m, 0.0))).p
+    return may_step(
+        (X_WS.p[0], X_WS.p[1]), (x_m, y_m), things_around(body),
+        radius_m=max(room_m, body.description.body_radius_m),
+    )  # fmt: skip
 
 
 def _distances() -> Iterator[float]:

@@ -5,6 +5,7 @@ Skills plan in the world W; commands are in the odometry frame N, in which the c
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Literal, TypedDict
 
 from executive.skills.context import SkillContext
@@ -57,6 +58,8 @@ class Body:
         self.progress = 0.0
         self.companion = ""
         """The person who may be near: the one who is handed something, or followed."""
+        self.glance: Callable[[], Vector3 | None] | None = None
+        """Where else than ahead to look in turns while it walks; None: nothing is looked for."""
         self.familiar: frozenset[str] | None = None
         """Unexplained things that were there when the feet came to rest, by id; None: not noted."""
 

@@ -10,6 +10,7 @@ import numpy as np
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import miss, step_to
 from executive.skills.motions.gaze import check_camera, look_at, turn_head
+from executive.skills.motions.glances import glance
 from executive.skills.motions.likelihood import surfaces_of
 from executive.skills.motions.past_people import ask_view_past_people
 from executive.skills.motions.personal_space import get_familiar
@@ -62,7 +63,11 @@ def look_over(body: Body, survey: Survey, until: Until, *, stay: bool = False) -
 
     Returns whether it came to be so; the robot stands then. With `stay` it only turns on the spot.
     """
-    found = yield from _look_over(body, survey, until, stay=stay)
+    body.glance = lambda: glance(body, survey)
+    try:
+        found = yield from _look_over(body, survey, until, stay=stay)
+    finally:
+        body.glance = None
     if body.state.mode != "stand":
         yield from stand_still(body)
     return found

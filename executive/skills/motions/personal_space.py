@@ -16,6 +16,9 @@ CLEAR_M = 0.6
 """More than the zone, so that somebody at its edge does not stop and free the robot in turns."""
 BELIEVED_S = 10.0
 """Who was seen so lately is taken to be there still, unless the place was seen empty since."""
+STAYS_S = 4.0
+"""Who has been beyond the zone for so long stays there, even if nearer than `CLEAR_M`: a hand that
+was swayed up to them by a step waited for its patience at 0.58 m, and gave up, three times."""
 PATIENCE_S = 15.0
 STEP_BACK = "Please step back a little."
 """What somebody who is near a hand is told."""
@@ -73,17 +76,22 @@ def near_hand(body: Body, p_W: Sequence[float], *, within_m: float = ZONE_M) -> 
 
 
 def wait_for_room(body: Body, p_W: Sequence[float]) -> Script[None]:
-    """Wait until nobody is near a hand any more, and ask for room.
+    """Wait until nobody is near a hand any more, or comes nearer, and ask for room.
 
     Gives up with `person_near` after `PATIENCE_S`.
     """
     words, end_s = body.phase, body.now_s + PATIENCE_S
+    near_s = body.now_s
     to_say = [body.now_s + after_s for after_s in TOLD_AT_S]
     while (name := near_hand(body, p_W, within_m=CLEAR_M)) is not None:
         body.phase = f"waiting for {name} to step back"
         if to_say and body.now_s >= to_say[0]:
             body.context.say(STEP_BACK)
             del to_say[0]
+        if near_hand(body, p_W) is not None:
+            near_s = body.now_s
+        elif body.now_s - near_s > STAYS_S:
+            break
         if body.now_s > end_s:
             raise give_up(
                 "person_near",

@@ -39,6 +39,8 @@ STALLED_S = 5.0  # judged by motion: what is left of the way may grow where it l
 LOOK_EVERY_S = 1.0
 LOOK_AHEAD_M = 1.5
 LOOK_HEIGHT_M = 0.5
+ABOUT_M = 2.5
+"""Where somebody is as near as this the eyes stay on the way."""
 UNSEEN_S, BESIDE_THE_WAY_M = 1.0, 1.2
 """Who was not seen for so long is looked at where the way leads by so near."""
 STOP_TIMEOUT_S = 5.0
@@ -244,19 +246,27 @@ class _Watch:
         self._following = following = body.description.walking.following
         self._end_s = body.now_s + following.least_s + following.patience_s_m * whole_m
         self._looked_s = -math.inf
+        self._aside = True
         self._anchor = body.X_WS
         self._moved_s = body.now_s
         self._blocked_since_s: float | None = None
 
     def look_ahead(self, follower: Follower) -> None:
-        """Turn the head now and then: along the path, or to who may still be beside it."""
-        if self.body.now_s - self._looked_s < LOOK_EVERY_S:
+        """Turn the head now and then: along the path, or to who may still be beside it.
+
+        Every other time to where a thing may be that is looked for, if nobody is about.
+        """
+        body = self.body
+        if body.now_s - self._looked_s < LOOK_EVERY_S:
             return
         points = follower.ahead(LOOK_AHEAD_M)
         if points:
-            unsure = _unsure_of(self.body, points)
-            look_at(self.body, unsure or (*points[-1], LOOK_HEIGHT_M))
-            self._looked_s = self.body.now_s
+            self._aside = not self._aside
+            ahead = _unsure_of(body, points) or (*points[-1], LOOK_HEIGHT_M)
+            alone = somebody_near(body, body.X_WS.p, within_m=ABOUT_M) is None
+            aside = body.glance() if self._aside and body.glance and alone else None
+            look_at(body, aside or ahead)
+            self._looked_s = body.now_s
 
     def call_ahead(self, follower: Follower) -> None:
         """Ask who stands too near to the way ahead to make room, while walking on."""

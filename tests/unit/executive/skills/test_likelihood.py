@@ -164,6 +164,22 @@ def test_what_is_in_a_can_says_more_than_the_can() -> None:
     assert usual_places(thing("green can", "can"), home) == {"kitchen"}
 
 
+@pytest.mark.parametrize(
+    ("name", "category", "kept"),
+    [
+        ("painkiller box", "box", "treatment room"),
+        ("vitamin jar", "jar", "treatment room"),
+        ("floor polish", "bottle", "utility room"),
+        ("sewing kit", "kit", "parlour"),
+    ],
+)
+def test_what_people_heal_clean_and_sew_with_has_its_rooms_too(name, category, kept) -> None:
+    """Painkillers were looked for in every room but the one with the medicine cabinet first."""
+    rooms = ("kitchen", "treatment room", "utility room", "parlour")
+    home = msgspec.structs.replace(MAP, places=tuple(room(called) for called in rooms))
+    assert usual_places(thing(name, category), home) == {kept}
+
+
 def test_a_plural_is_kept_where_one_is() -> None:
     home = msgspec.structs.replace(MAP, places=(room("office"),))
     assert usual_places(thing("staplers", "thing"), home) == {"office"}

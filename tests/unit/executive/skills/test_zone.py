@@ -185,6 +185,28 @@ def test_somebody_who_stays_ends_the_reach_with_a_name(stage):
     assert ZONE_M == 0.5
 
 
+@pytest.mark.parametrize(("outline_m", "code"), [(0.55, ""), (0.45, "person_near")])
+def test_who_stays_just_beyond_the_zone_is_no_reason_to_give_up(stage, outline_m, code):
+    """Who has nowhere to go; where they are within it no hand moves, however long they stay."""
+    tick, stopped = stage.puppet.tick, []
+    radius_m = stage.puppet.world_map.people[0].radius_m
+
+    def stand():
+        tick()
+        body = stage.skill.body
+        if body.phase.startswith("waiting for Ann"):
+            stopped.append(body.now_s)
+        near = body.phase.startswith(("reaching", "moving in")) or bool(stopped)
+        apart_m = radius_m + (outline_m if stopped else 0.45)
+        x_m, y_m, _ = body.p_WE("left")
+        stage.puppet.people["ann"] = SE3((x_m, y_m + apart_m, 0.0)) if near else AWAY
+
+    stage.puppet.tick = stand
+    report = stage.run(PickParams(object_id="cup", side="left"))
+    assert "waiting for Ann to step back" in stage.phases
+    assert (report.failure.code if report.failure else "") == code
+
+
 def thing(X_WO: SE3) -> Obstacle:
     shape = Shape(kind="box", size_m=(0.4, 0.4, 1.2))
     return Obstacle(id="unmapped_7", name="something in the way", X_WO=X_WO, shapes=(shape,))

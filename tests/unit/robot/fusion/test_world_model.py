@@ -141,11 +141,12 @@ def test_objects_that_nobody_told_of_are_tracked_too(model):
     assert [track.id for track in model.tracks()] == ["cup", "ball"]
 
 
-GRIPPING = description.load().handy.gripping
+JUNO = description.load()
+GRIPPING, MOST_M = JUNO.handy.gripping, JUNO.hands["right"].max_opening_m
 
 
 def hand(x: float, opening_m: float) -> dict:
-    return {"right": Hand(SE3.from_xy_yaw(x, 0.0, 0.3, z_m=1.0), opening_m, GRIPPING)}
+    return {"right": Hand(SE3.from_xy_yaw(x, 0.0, 0.3, z_m=1.0), opening_m, GRIPPING, MOST_M)}
 
 
 def test_what_the_fingers_close_on_goes_with_the_hand_and_is_never_missing(model):
@@ -167,10 +168,29 @@ def test_a_hand_open_around_the_narrow_side_of_a_box_does_not_hold_it(model):
     model.know((msgspec.structs.replace(CUP, shape=box),))
     model.see(seen(0.0, (0.0, 0.2, 1.5)), X_WC, depth())
     X_WO = cup(model).X_WO
-    model.feel({"right": Hand(X_WO, 0.10, GRIPPING)})
+    model.feel({"right": Hand(X_WO, 0.10, GRIPPING, MOST_M)})
     assert cup(model).held_by is None, "fingers open along its 6 cm"
-    model.feel({"right": Hand(X_WO, 0.06, GRIPPING)})
+    model.feel({"right": Hand(X_WO, 0.06, GRIPPING, MOST_M)})
     assert cup(model).held_by == "right"
+
+
+def test_an_open_hand_does_not_hold_what_is_nearly_as_wide_as_it_opens(model):
+    """Cans of 8.5 cm went along with the open hand that came for them, and with it when it left."""
+    wide = Shape(kind="cylinder", size_m=(0.085, 0.085, 0.12))
+    model.know((msgspec.structs.replace(CUP, shape=wide),))
+    model.see(seen(0.0, (0.0, 0.2, 1.5)), X_WC, depth())
+    for x, opening_m in ((1.44, 0.0995), (1.47, 0.0985), (1.5, 0.0965)):
+        model.feel(hand(x, opening_m))
+        assert cup(model).held_by is None
+        assert cup(model).X_WO.p == pytest.approx((1.5, 0.0, 1.0), abs=1e-6)
+    for opening_m in (0.093, 0.085, 0.085):
+        model.feel(hand(1.5, opening_m))
+    assert cup(model).held_by == "right"
+    model.feel(hand(1.3, 0.085))
+    for x, opening_m in ((1.3, 0.0995), (1.22, 0.0995)):
+        model.feel(hand(x, opening_m))
+        assert cup(model).held_by is None
+    assert cup(model).X_WO.p == pytest.approx((1.3, 0.0, 1.0), abs=1e-6)
 
 
 def test_what_the_fingers_rest_on_stays_held_however_wide_it_looks(model):
@@ -325,9 +345,9 @@ def test_fingers_open_around_the_middle_of_a_banana_do_not_hold_it(model):
     model.know((msgspec.structs.replace(CUP, shape=BANANA),))
     model.see(seen(0.0, (0.0, 0.2, 1.5)), X_WC, depth())
     X_WO = cup(model).X_WO
-    model.feel({"right": Hand(X_WO, 0.081, GRIPPING)})
+    model.feel({"right": Hand(X_WO, 0.081, GRIPPING, MOST_M)})
     assert cup(model).held_by is None
-    model.feel({"right": Hand(X_WO, 0.036, GRIPPING)})
+    model.feel({"right": Hand(X_WO, 0.036, GRIPPING, MOST_M)})
     assert cup(model).held_by == "right"
 
 
@@ -338,5 +358,5 @@ def test_a_bottle_is_held_by_its_neck_too(model):
     X_WO = cup(model).X_WO
     above = X_WO.rotation()[:, 2] * 0.10 + np.array(X_WO.p)
     for p, opening_m, holds in ((X_WO.p, 0.03, False), (tuple(above.tolist()), 0.03, True)):
-        model.feel({"right": Hand(SE3(p, X_WO.quat_wxyz), opening_m, GRIPPING)})
+        model.feel({"right": Hand(SE3(p, X_WO.quat_wxyz), opening_m, GRIPPING, MOST_M)})
         assert (cup(model).held_by == "right") is holds

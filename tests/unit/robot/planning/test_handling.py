@@ -182,6 +182,21 @@ def test_hands_keep_away_from_who_stands_beside(solver: Solver) -> None:
     assert math.dist(raised, ann.X_WO.p[:2]) > ann.radius_m + 0.5
 
 
+def test_a_stance_is_not_beside_somebody_where_there_is_another(solver: Solver) -> None:
+    """Her outline is 0.45 m from where the feet would be, on the side of the hand that hangs."""
+    held = Held(id="cup", shape=CUP, X_GO=SE3())
+    alone = place(solver, TABLE, surroundings(), held=held, side="left")
+    assert isinstance(alone, PlacePlan), alone
+    x, y, yaw = alone.stance
+    aside = SE3((x + 0.7 * math.sin(yaw), y - 0.7 * math.cos(yaw), 0.0))
+    ann = PersonInfo(id="ann", name="Ann", X_WO=aside)
+    around = surroundings()
+    beside = msgspec.structs.replace(around, map=msgspec.structs.replace(around.map, people=(ann,)))
+    plan = place(solver, TABLE, beside, held=held, side="left")
+    assert isinstance(plan, PlacePlan), plan
+    assert math.dist(plan.stance[:2], ann.X_WO.p[:2]) > ann.radius_m + 0.6
+
+
 @pytest.mark.parametrize("yaw_rad", [-2.0, 0.0, 1.6])
 def test_a_thin_torch_that_lies_on_the_table(solver: Solver, yaw_rad: float) -> None:
     shape = Shape(kind="cylinder", size_m=(0.045, 0.045, 0.16))
