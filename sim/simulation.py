@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from robot.messages import EyesBy, LocalisedBy
+from robot.messages import AskedEyes, EyesBy, LocalisedBy
 from robot.model.description import RobotDescription
 from robot.reality.contract import IDEAL, USUAL, Begin, Cast, EmulatedBuses, Home, ThingKind
 from robot.reality.faults import Fault
@@ -43,17 +43,17 @@ class Simulation:
         self,
         profile: str = USUAL,
         *,
-        eyes: EyesBy = "oracle",
+        eyes: AskedEyes = "oracle",
         localisation: LocalisedBy = "oracle",
     ) -> None:
         """Raises ConfigError for a profile that is none."""
         realities.profile(profile)
         self.profile = profile
-        self.eyes: EyesBy = eyes
+        self.eyes: AskedEyes = eyes
         self.localisation: LocalisedBy = localisation
 
     def under(
-        self, profile: str, *, eyes: EyesBy = "oracle", localisation: LocalisedBy = "oracle"
+        self, profile: str, *, eyes: AskedEyes = "oracle", localisation: LocalisedBy = "oracle"
     ) -> Simulation:
         """The same under other conditions. Raises ConfigError, with the nearest name."""
         return Simulation(profile, eyes=eyes, localisation=localisation)
@@ -78,7 +78,8 @@ class Simulation:
         if vary_seed is not None:
             entries = placing.variation(entries, vary_seed)
         return SimulatedWorld(
-            entries, name=name_or_path, vary_seed=vary_seed, profile=self.profile, eyes=self.eyes,
+            entries, name=name_or_path, vary_seed=vary_seed, profile=self.profile,
+            eyes="oracle" if self.eyes == "auto" else self.eyes,
             localisation=self.localisation,
         )  # fmt: skip
 
@@ -204,6 +205,13 @@ class SimulatedWorld:
         return SimulatedWorld(
             entries, name=self.name, vary_seed=self.vary_seed, profile=self.profile,
             eyes=self.eyes, localisation=self.localisation,
+        )  # fmt: skip
+
+    def seen_by(self, eyes: EyesBy) -> SimulatedWorld:
+        """The same, with who tells robots in it where the things are."""
+        return SimulatedWorld(
+            self.entries, name=self.name, vary_seed=self.vary_seed, profile=self.profile,
+            eyes=eyes, localisation=self.localisation,
         )  # fmt: skip
 
     def localised(self, by: LocalisedBy) -> SimulatedWorld:

@@ -25,7 +25,7 @@ from robot.errors import ConfigError, Problem
 from robot.failures import CATALOGUE
 from robot.files import config, yaml_nodes
 from robot.files.yaml_nodes import Node
-from robot.messages import EyesBy, LocalisedBy
+from robot.messages import AskedEyes, LocalisedBy
 from robot.reality import truth
 from robot.reality.contract import IDEAL, USUAL, Reality
 
@@ -116,7 +116,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True):
     recovery: bool = True
     robot: str = ""
     reality: str | msgspec.UnsetType = msgspec.UNSET
-    eyes: EyesBy | msgspec.UnsetType = msgspec.UNSET
+    eyes: AskedEyes | msgspec.UnsetType = msgspec.UNSET
     localisation: LocalisedBy | msgspec.UnsetType = msgspec.UNSET
 
     @property
@@ -283,7 +283,7 @@ def runs(
     without_too: bool,
     robot: str,
     reality: str = USUAL,
-    eyes: EyesBy = "oracle",
+    eyes: AskedEyes = "oracle",
     localised: Callable[[Case], LocalisedBy] = _by_oracle,
 ) -> list[Run]:
     """Every case with every seed, the seeds outermost, so that all cases get on evenly.

@@ -23,7 +23,7 @@ from executive.frontends.launching import hear_people, under_way
 from executive.frontends.options import Seeded, Shown, Viewed, Voiced
 from executive.frontends.output import Screen, say, write_json
 from executive.frontends.progress import Lines, LiveTree, Silent
-from executive.meaning import request
+from executive.meaning import own_eyes, request
 from executive.meaning.request import Setting
 from executive.runs import lidar_maps, runtimes, task_run
 from executive.runs.again import continuation
@@ -126,6 +126,9 @@ def setup(where: Setting, options: Seeded, folder: Path, *, handle: Handle | Non
         if not as_json:
             say(text, err=True)
 
+    alone = own_eyes.trusted(where.world, where.robot_name) == "camera"
+    if there is None and options.eyes == "auto" and not alone:
+        tell(own_eyes.untried(where.world.name))
     where = lidar_maps.localised(where, by, tell=tell)
     kind: runtimes.Kind = "fast" if options.fast else "live"
     driver = chosen(options.driver, where.description, fast=options.fast, err=as_json)

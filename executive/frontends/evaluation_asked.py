@@ -12,7 +12,7 @@ from executive.frontends.options import Eval
 from robot.errors import ConfigError, Problem
 from robot.files.ordinary_files import read_ordinary, write_ordinary
 from robot.files.plain_data import fitted, from_json
-from robot.messages import AskedLocalisation, EyesBy
+from robot.messages import AskedEyes, AskedLocalisation
 
 FILE = "asked.json"
 LIMIT = 1_000_000
@@ -31,7 +31,7 @@ class Asked(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     world: str = ""
     robot: str = ""
     reality: str = "ideal"
-    eyes: EyesBy = "oracle"
+    eyes: AskedEyes = "oracle"
     localisation: AskedLocalisation = "oracle"
     seeds: Annotated[int, msgspec.Meta(ge=1, le=10_000)] = 1
     no_recovery: bool = False

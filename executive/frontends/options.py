@@ -25,7 +25,7 @@ import typer
 
 from executive.frontends import completing
 from executive.frontends.dump.cli import Dump, DumpFormat, DumpOn
-from robot.messages import AskedLocalisation, EyesBy
+from robot.messages import AskedEyes, AskedLocalisation
 from robot.reality.contract import USUAL
 
 T = TypeVar("T")
@@ -61,11 +61,12 @@ InReality = Annotated[
     ),
 ]
 Eyes = Annotated[
-    EyesBy,
+    AskedEyes,
     typer.Option(
         "--eyes",
-        help="Who tells the robot where things are: oracle (the simulator), or camera: it finds, "
-        "measures and names them in its own pictures (docs/perception.md; extra: vision).",
+        help="Who tells the robot where things are: camera: it finds, measures and names them in "
+        "its own pictures; oracle: the simulator; auto: camera where that was tried (Juno in the "
+        "kitchen and on the bench), else oracle (docs/perception.md).",
     ),
 ]
 Localisation = Annotated[
@@ -121,7 +122,7 @@ class Seeded:
 
     seed: Seed = 0
     reality: InReality = USUAL
-    eyes: Eyes = "oracle"
+    eyes: Eyes = "auto"
     localisation: Localisation = "auto"
     fast: Annotated[
         bool,
@@ -301,7 +302,7 @@ class Eval:
         str, typer.Option("--robot", "-r", help="In place of the missions' own (juno).")
     ] = ""
     reality: InReality = USUAL
-    eyes: Eyes = "oracle"
+    eyes: Eyes = "auto"
     localisation: Localisation = "auto"
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, and nothing else.")] = (
         False

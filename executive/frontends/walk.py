@@ -26,8 +26,9 @@ def walk(options: Walk) -> int:
     Raises:
         RobotError: a file is wrong (ConfigError), or a part does not start.
     """
+    eyes = "oracle" if options.eyes == "auto" else options.eyes  # nothing is looked for
     where = request.setting(
-        REALITY.under(options.reality, eyes=options.eyes),
+        REALITY.under(options.reality, eyes=eyes),
         options.world,
         robot=options.robot,
     )

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import msgspec
 from msgspec.structs import replace
 
+from executive.meaning import own_eyes
 from executive.meaning.identify import CannotMean, Scene
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.tasks import understand
@@ -92,9 +93,12 @@ def setting(reality: Reality, world: str, *, robot: str, vary_seed: int | None =
     """
     body = description.load(robot)
     BodyModel(body)  # the MJCF has what the description names, or this says what not
+    there = reality.world(world, vary_seed=vary_seed)
+    if reality.eyes == "auto":
+        there = there.seen_by(own_eyes.trusted(there, robot))
     return Setting(
         reality=reality,
-        world=reality.world(world, vary_seed=vary_seed),
+        world=there,
         description=body,
         robot_name=robot,
     )

@@ -13,6 +13,7 @@ Frames (docs/frames.md): W world; N odometry (the controller's own: smooth, drif
 """
 
 from robot.messages.basics import (
+    AskedEyes,
     AskedLocalisation,
     Channel,
     EyesBy,
@@ -80,6 +81,7 @@ from robot.messages.world_state import (
 __all__ = [
     "PERSON_RADIUS_M",
     "Activity",
+    "AskedEyes",
     "AskedLocalisation",
     "BodyCommand",
     "BodyState",

@@ -12,6 +12,8 @@ Channel = Literal["legs", "waist", "head", "left_arm", "right_arm", "left_hand",
 Source = Literal["oracle", "emulated", "sensor", "estimate"]
 EyesBy = Literal["oracle", "camera"]
 """Who tells where the things are: the simulator, or what the robot sees in its own pictures."""
+AskedEyes = Literal["auto", "oracle", "camera"]
+"""What people ask for: one of these, or its own eyes where they were tried, else the oracle."""
 LocalisedBy = Literal["oracle", "lidar"]
 """Who tells where the robot is: the simulator, or its own lidar and legs in its own map."""
 AskedLocalisation = Literal["auto", "oracle", "lidar"]

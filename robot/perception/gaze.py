@@ -54,7 +54,7 @@ class Gaze:
             take: takes a picture of this moment; None: the newest that came is looked at.
 
         Raises:
-            ConfigError: if onnxruntime is missing (extra: vision).
+            ConfigError: if onnxruntime is missing.
         """
         self._body, self._bus, self._take = body, bus, take
         self._data = body.data()

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, Protocol
 from robot.bus.topics import Topic
 from robot.closing import Closing
 from robot.drivers.wiring import SimulatedPlant
-from robot.messages import EyesBy, LocalisedBy, Message, WorldMap
+from robot.messages import AskedEyes, EyesBy, LocalisedBy, Message, WorldMap
 from robot.model.description import RobotDescription
 from robot.reality.faults import Fault
 from robot.reality.studio import Renderer, RobotCamera, Studio
@@ -37,8 +37,11 @@ class Reality(Protocol):
         ...
 
     @property
-    def eyes(self) -> EyesBy:
-        """Who tells robots there where the things are (docs/perception.md)."""
+    def eyes(self) -> AskedEyes:
+        """Who is to tell robots there where the things are (docs/perception.md).
+
+        "auto" is settled where world and robot come together (`executive.meaning.request`).
+        """
         ...
 
     @property
@@ -47,7 +50,7 @@ class Reality(Protocol):
         ...
 
     def under(
-        self, profile: str, *, eyes: EyesBy = "oracle", localisation: LocalisedBy = "oracle"
+        self, profile: str, *, eyes: AskedEyes = "oracle", localisation: LocalisedBy = "oracle"
     ) -> Reality:
         """The same with another profile (docs/realities.md), other eyes, another localisation.
 
@@ -256,6 +259,10 @@ class World(Protocol):
             seed: of the draw; the same seed gives the same world.
             start: where the robot starts (x [m], y [m], heading [deg]) in place of its start.
         """
+        ...
+
+    def seen_by(self, eyes: EyesBy) -> World:
+        """The same world, in which another tells robots where the things are."""
         ...
 
     def localised(self, by: LocalisedBy) -> World:

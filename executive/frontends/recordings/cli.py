@@ -180,7 +180,7 @@ def detect(
 
     No model comes along with this software yet. With --json a line a picture: image, width,
     height, detections (name, score, box: x1, y1, x2, y2 in pixels), or error where it cannot be
-    read. Needs onnxruntime: pip install 'humanoid-executive[vision]'
+    read.
 
     [bold]Examples[/bold]
 

@@ -113,8 +113,8 @@ def snap(
 
     Near is red, far is blue, and black is where no depth was measured. With --reality real or
     harsh the camera is like one that is sold: holes, noise, bad light (docs/realities.md). The same
-    seed gives the same picture. With --things two small networks find and name what is in it
-    (extra: vision; docs/perception.md); no robot acts on that yet.
+    seed gives the same picture. With --things two small networks find and name what is in it, as
+    they do for a robot at work (docs/perception.md).
 
     [bold]Examples[/bold]
 

@@ -19,7 +19,7 @@ FONT_PX = 11.0
 
 
 def seen_things(image: RgbdImage, X_WC: SE3) -> list[SeenThing]:
-    """The things of a picture. Raises ConfigError if onnxruntime is not there (extra: vision)."""
+    """The things of a picture. Raises ConfigError if onnxruntime is not there."""
     return Eyes().look(image, X_WC)
 
 

@@ -111,7 +111,7 @@ def _attend(shell: Shell, place: Place, options: Served, handle: Handle | None) 
     try:
         with (
             Counter(shell, place=place, running=running, log=log) as counter,
-            bridged(_plan(options, place, handle), logs=shell.folder, out=shell.out),
+            bridged(_plan(options, place, handle, shell), logs=shell.folder, out=shell.out),
         ):
             shell.robot.session.journal.listen(partial(_pass_on, counter))
             shell.out(greeting(options))
@@ -129,7 +129,7 @@ def _attend(shell: Shell, place: Place, options: Served, handle: Handle | None) 
     return ExitStatus.DONE
 
 
-def _plan(options: Served, place: Place, handle: Handle | None) -> Plan | None:
+def _plan(options: Served, place: Place, handle: Handle | None, shell: Shell) -> Plan | None:
     """What the bridge to ROS 2 is told, if there is to be one."""
     if not options.ros2 or handle is None:
         return None
@@ -141,7 +141,7 @@ def _plan(options: Served, place: Place, handle: Handle | None) -> Plan | None:
         name=place.name,
         place=str(place.folder),
         robot=options.robot,
-        pictures=options.camera or options.eyes == "camera",
+        pictures=options.camera or shell.robot.where.world.eyes == "camera",
     )
 
 

@@ -29,7 +29,7 @@ def register(app: typer.Typer, settings: Settings) -> None:
         robot: Robot = "juno",
         seed: Seed = 0,
         vary: Annotated[bool, typer.Option("--vary", help="As of do.")] = False,
-        eyes: Eyes = "oracle",
+        eyes: Eyes = "auto",
         localisation: Localisation = "auto",
         view: View = False,
         voice: Annotated[bool, typer.Option("--voice", help="As of do.")] = False,

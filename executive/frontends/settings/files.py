@@ -36,7 +36,7 @@ from executive.frontends.options import MOST_SEED
 from robot.errors import ConfigError, Problem
 from robot.files import config, plain_data
 from robot.files.ordinary_files import is_within, open_ordinary
-from robot.messages import AskedLocalisation, EyesBy
+from robot.messages import AskedEyes, AskedLocalisation
 
 PROJECT = Path("humanoid.toml")
 MAX_BYTES = 64_000
@@ -83,7 +83,7 @@ class Project(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     robot: Name | None = None
     seed: Annotated[int, Meta(ge=0, le=MOST_SEED)] | None = None
     vary: bool | None = None
-    eyes: EyesBy | None = None
+    eyes: AskedEyes | None = None
     localisation: AskedLocalisation | None = None
 
 

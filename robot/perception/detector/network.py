@@ -1,5 +1,4 @@
 # pyright: basic
-# onnxruntime is optional (extra: vision).
 """A network from an ONNX file, run by onnxruntime on the processor."""
 
 from __future__ import annotations
@@ -14,7 +13,7 @@ from robot.errors import ConfigError, Problem
 from robot.files.ordinary_files import read_ordinary
 from robot.perception.detector import onnx_file
 
-INSTALL = "pip install 'humanoid-executive[vision]'"
+INSTALL = "pip install onnxruntime"
 EXPORT = "export one to ONNX: yolo export model=yolo11n.pt format=onnx"
 MOST_BYTES = 300_000_000
 """The largest YOLO has 230 MB; onnxruntime takes several times as much to run it."""

@@ -56,7 +56,7 @@ class Seer:
     """Remembers what was seen where, and which of it is what."""
 
     def __init__(self, eyes: Eyes | None = None) -> None:
-        """Load the networks. Raises ConfigError if onnxruntime is missing (extra: vision)."""
+        """Load the networks. Raises ConfigError if onnxruntime is missing."""
         self._eyes = eyes or Eyes()
         namer = self._eyes.namer
         self._recogniser = Recogniser(Knowledge(namer.classes, namer.sure, namer.voted))

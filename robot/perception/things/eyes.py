@@ -71,7 +71,7 @@ class Eyes:
     """Both networks, and what makes things of their answers."""
 
     def __init__(self, finder: Finder | None = None, namer: Namer | None = None) -> None:
-        """Load them. Raises ConfigError if onnxruntime is missing (extra: vision)."""
+        """Load them. Raises ConfigError if onnxruntime is missing."""
         self.finder, self.namer = finder or Finder(), namer or Namer()
 
     def look(

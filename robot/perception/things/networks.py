@@ -1,5 +1,4 @@
 # pyright: basic
-# onnxruntime is optional (extra: vision).
 """The finder and the namer: networks of our own, in files beside this one."""
 
 from __future__ import annotations

@@ -63,7 +63,8 @@ def test_what_a_mission_found_before_it_was_cut_off_is_in_its_summary(
     runtime, humanoid, anew  # noqa: F811
 ):  # fmt: skip
     Path("m.yaml").write_text("name: m\nsteps: [say: hello]\nexpect: [holding: false]\n")
-    assert humanoid("mission", "run", "m.yaml", "--fast", "--run-dir", "runs/a")[0] == 0
+    begun = ("mission", "run", "m.yaml", "--fast", "--eyes", "oracle", "--run-dir", "runs/a")
+    assert humanoid(*begun)[0] == 0
     lines = Path("runs/a/journal.jsonl").read_bytes().splitlines(keepends=True)
     found = next(at for at, line in enumerate(lines) if b'"event":"expect"' in line)
     shutil.copytree("runs/a", "runs/b")
