@@ -26,7 +26,7 @@ from intents.english.words.limits import (
     SPOTS,
     TIMES,
 )
-from intents.english.words.measures import number
+from intents.english.words.measures import measure, number
 from intents.english.words.names import NameIndex
 from intents.english.words.spelling import GRAMMAR_WORDS
 from intents.goals import (
@@ -45,12 +45,15 @@ from intents.goals import (
 )
 from intents.mismatches import (
     counts_another,
+    explains_another,
     loses_all,
     measures_lost,
     mistimes,
     orders_fewer,
     switches_furniture,
     turns_round,
+    waits_for_nothing,
+    whose_is_lost,
 )
 from intents.outcomes import Goals, Question
 from intents.sameness import same
@@ -202,7 +205,19 @@ def _is_contrary(case: _Case) -> bool:
         or mistimes(words, goals)
         or loses_all(words, goals, index)
         or orders_fewer(case.text, goals)
+        or waits_for_nothing(words, goals)
+        or whose_is_lost(words, goals)
+        or explains_another(case.text, goals)
+        or _loses_figure(case)
     )
+
+
+def _loses_figure(case: _Case) -> bool:
+    """On the shelf *7*: whether a number in figures comes back in no goal, nor in words."""
+    words, told = case.words, numbers(case.goals)
+    said = {*case.both.plain.split(), *strings(case.goals)}
+    alone = (w for at, w in enumerate(words) if w.isdecimal() and measure(words, at) is None)
+    return any(float(word) not in told for word in alone if word not in said)
 
 
 def _loses_limit(case: _Case) -> bool:

@@ -13,7 +13,7 @@ from intents.english.aspects import unkept
 from intents.english.clauses.parentheses import parentheses, said_to_others
 from intents.english.faithfulness import left_out, strings
 from intents.english.joining import carried, said_once
-from intents.english.offers import would_help
+from intents.english.offers import in_distress, would_help
 from intents.english.order import RULES
 from intents.english.phrases.referents import ME, Scope
 from intents.english.reading import Sentence, not_understood
@@ -34,6 +34,7 @@ from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import (
+    OPERATOR,
     Answer,
     Ask,
     Balance,
@@ -53,6 +54,7 @@ from intents.goals import (
     Pause,
     Pick,
     Place,
+    Report,
     Say,
     Stop,
     Tell,
@@ -176,6 +178,8 @@ def _read(text: Text, scope: Scope, history: tuple[Goal, ...]) -> Understood:
     goals, end = sequence(sentence, 0)
     goals = said_once(carried(goals), text.words)
     help_ = None if goals or sentence.notes.forbidden else would_help(sentence)
+    if in_distress(text) and all(isinstance(goal, Report) for goal in goals):
+        raise Offered(text.raw(0, len(text)), (GoTo(place=OPERATOR),))
     if help_:
         raise Offered(text.raw(0, len(text)), (help_,))
     if text.word(len(text) - 1) in _DANGLING and _acts(goals[-1:]):
@@ -229,6 +233,8 @@ def _refuse_unasked(text: Text) -> None:
     spoken_to = somebody_else(text)
     if spoken_to:
         raise Unasked(f"I take that as said to {spoken_to}, not to me")
+    if text.word(0) == "whose" and not _goes_on(text):
+        raise Unasked("I am not told whose things are")
     wanted = jobs_to_end(text.raw(0, len(text)))
     if wanted is not None and wanted not in (Jobs(every=True), Jobs(current=True)):
         raise Unasked("I know of no other jobs here than what I am at; the prompt has a queue")
@@ -237,6 +243,12 @@ def _refuse_unasked(text: Text) -> None:
             "I do what I am at step by step, and leave none out: “cancel” ends it, and then say "
             "what is left to do"
         )
+
+
+def _goes_on(text: Text) -> bool:
+    """Whose cup is that? *Bring it to me*: whether another clause follows the first."""
+    signs = (at for at, word in enumerate(text.words) if word in (COMMA, FULL_STOP))
+    return next(signs, len(text)) < len(text) - 1
 
 
 def _forbidden(sentence: Sentence, goals: list[Goal]) -> list[str]:

@@ -15,7 +15,7 @@ from intents.english.words.lexer import words_in
 from intents.english.words.measures import Measure, measure, number
 from intents.english.words.names import NameIndex
 from intents.english.words.verbs import base_form, verbs_at
-from intents.goals import Count, ForEach, Goal, Open, Switch, Wait, each
+from intents.goals import Count, ForEach, Goal, Open, Report, Switch, Wait, each
 
 _SHUTS = lexicon.words("close closed shut down off out kill stop cut end lower douse draw drawn")
 _OPENS = lexicon.words("open opened up on start run wake raise lift unlock boot fire going part")
@@ -25,6 +25,13 @@ _WHERE = lexicon.words("on in at from under off inside behind")
 _TAKES = lexicon.words("take pick get collect grab fetch go come see look have let keep leave")
 """What an order begins with that another one may well finish: "take the cup, put it there"."""
 _COUNTED_BY = lexicon.words("of the them these those my your our more other")
+_WAITS = lexicon.words("wait pause rest hold")
+_ADDRESSED = lexicon.words("you your yours yourself u ur ya ye robot")
+_OF_A_THING = re.compile(
+    r"\bwhy (?:is|are|was|were|does|do|did|has|have|had|must|can|will) "
+    r"(?:the|this|that|these|those|a|an|my|our|his|her|its|their|some|all|every) [a-z]+ [a-z]+"
+)
+"""Why is *that flower so* pointy: of a thing, not "why did that fail"."""
 _CLAUSES = re.compile(r"[,.;:!?…—–]+|\b(?:and|then)\b")
 _NEAR = 1e-3
 _SEVERAL = 2
@@ -78,6 +85,31 @@ def mistimes(words: list[str], goals: Sequence[Goal]) -> bool:
     told = [one.value for one in _durations(words)]
     waits = [goal.duration_s for goal in each(goals) if isinstance(goal, Wait) and goal.duration_s]
     return any(all(abs(wait - one) > _NEAR for one in told) for wait in waits)
+
+
+def waits_for_nothing(words: list[str], goals: Sequence[Goal]) -> bool:
+    """Nod, *wait one second*: whether a wait with its length was said, and none is done."""
+    if any(isinstance(goal, Wait) for goal in each(goals)):
+        return False
+    starts = (at + 1 + (words[at + 1 : at + 2] == ["for"]) for at in _waits(words))
+    found = (measure(words, at) for at in starts if at < len(words))
+    return any(one is not None and one.kind == "time" for one in found)
+
+
+def _waits(words: list[str]) -> Iterator[int]:
+    return (at for at, word in enumerate(words) if word in _WAITS)
+
+
+def whose_is_lost(words: list[str], goals: Sequence[Goal]) -> bool:
+    """*Whose* coat is that? Whether it is asked, or told, whose something is: no goal says that."""
+    return "whose" in words and bool(goals)
+
+
+def explains_another(text: str, goals: Sequence[Goal]) -> bool:
+    """Why is *that flower* so pointy? Whether the robot tells why it did something itself."""
+    tells = any(isinstance(goal, Report) and goal.topic == "why" for goal in each(goals))
+    words = words_in(text)
+    return tells and _ADDRESSED.isdisjoint(words) and bool(_OF_A_THING.search(" ".join(words)))
 
 
 def measures_lost(words: list[str], goals: Sequence[Goal]) -> bool:

@@ -11,6 +11,7 @@ from intents.english.phrases.referents import ME, is_person, to_object, to_perso
 from intents.english.reading import Sentence
 from intents.english.trouble import ReadingError
 from intents.english.words import lexicon
+from intents.english.words.text import Text
 from intents.goals import Bring, Goal, ObjectQuery, Switch
 
 _FEELS = lexicon.phrases(
@@ -40,6 +41,11 @@ _COULD_DO = lexicon.phrases(
     "could do with,could use,needs,need,are begging for,is begging for,would like,want some,"
     "wants some,lacks,is missing,are missing"
 )
+_FALLEN = lexicon.phrases(
+    "i have fallen,i fell,i have had a fall,i had a fall,i have tripped,i can not get up,"
+    "i can not stand up,i am hurt,i am bleeding,i have hurt myself,i feel faint,i can not breathe,"
+    "i am stuck,i am trapped"
+)
 _QUALIFIERS = lexicon.words("so very really a bit rather quite too still again some more getting")
 
 
@@ -50,6 +56,11 @@ def would_help(sentence: Sentence) -> Goal | None:
         return _lit(sentence, at) or _felt(sentence, at) or _short_of(sentence, at)
     except ReadingError:
         return None
+
+
+def in_distress(text: Text) -> bool:
+    """Help! *I have fallen*: whether somebody says that they are not well off."""
+    return any(text.phrase_end(_FALLEN, at) is not None for at in range(len(text)))
 
 
 def _lit(sentence: Sentence, at: int) -> Goal | None:

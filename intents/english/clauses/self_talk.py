@@ -57,7 +57,8 @@ _PATTERNS: tuple[tuple[ReportTopic, str], ...] = (
     ("health", r"(?:is |are )?(?:anything|something|everything) (?:wrong|broken|okay|fine"
                r"|alright|all right) with you"),
     ("why", r"(?:why|how come|for what reason|what made you)\b.*\b(?:you|your)\b.*"),
-    ("why", r"(?:why|how come)(?: not| is that| (?:did|does|has|is) (?:it|that|this)\b.*)?"),
+    ("why", r"(?:why|how come)(?: not| is that| (?:did|does|has|is) (?:it|that|this)\b"
+            r"(?! (?!so\b|too\b|not\b)\w+ (?:so|too|such|that)\b).*)?"),
     ("why", r"what(?: is| was)?(?: the)? (?:matter|problem|wrong|reason|trouble"
             r"|error)(?: with you)?"),
     ("why", r"what (?:was that|(?:has )?(?:happened|went wrong|gone wrong|broke))"

@@ -84,7 +84,11 @@ _TAILS = lexicon.phrases(
     "and no dawdling,and do not dawdle,or else,for once,"
     "whatever,either way,for crying out loud,for goodness sake,for heaven 's sake,"
     "for god 's sake,lah,na,yaar,"
-    "only please,de,ne,there 's a good chap"
+    "only please,de,ne,there 's a good chap,good man yourself,good woman yourself,"
+    "good lad yourself,good girl yourself,good on you,good on ya,fair play to you,fair play to ya,"
+    "i need room,i need some room,i need more room,i need the room,i need a bit of room,"
+    "i need space,i need some space,i need more space,i need the space,i need a bit of space,"
+    "we need room,we need some room,we need space,we need some space,we need the space"
 )
 """What may be said behind a request and adds nothing to it."""
 _LEAVES = lexicon.words("leave let left be is are was am live stand")

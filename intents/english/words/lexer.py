@@ -176,7 +176,9 @@ _IRREGULAR = {
     "children": "child", "feet": "foot", "cookies": "cookie", "teeth": "tooth", "lens": "lens",
     "thermoses": "thermos", "buses": "bus", "lenses": "lens", "cactuses": "cactus",
     "veggies": "veggie", "ladies": "lady", "movies": "movie", "brownies": "brownie",
-    "smoothies": "smoothie", "scarves": "scarf", "grey": "gray", "pies": "pie", "ties": "tie",
+    "smoothies": "smoothie", "scarves": "scarf",
+    "cacti": "cactus", "geese": "goose", "dice": "die", "calves": "calf", "wives": "wife",
+    "wolves": "wolf", "hooves": "hoof", "grey": "gray", "pies": "pie", "ties": "tie",
 }  # fmt: skip
 
 

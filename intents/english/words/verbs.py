@@ -274,7 +274,7 @@ SPELLINGS: dict[str, str] = {
         "repeat,do it again,do that again,repeat that,repeat it,once more,one more time,"
         "again,repeat this,repeat the following,do this again,do the same again,"
         "do the whole thing,do all of that,do all that,do all of it,do this,do so,"
-        "do the following,do it once more,do that once more,same again,do it,do that"
+        "do the following,do it once more,do that once more,same again,do it,do that,loop"
     ),
 }  # fmt: skip
 """Sense to spellings; a spelling may have several senses, the frames tell them apart.

@@ -89,3 +89,26 @@ def test_all_is_not_one(said: str, plain: str, lost: bool) -> None:
 )
 def test_no_order_is_lost_of_several(said: str, plain: str, fewer: bool) -> None:
     assert mismatches.orders_fewer(said, meant(plain)) is fewer
+
+
+@pytest.mark.parametrize(
+    ("said", "plain", "lost"),
+    [
+        ("nod, wait one second", "wave", True),
+        ("nod, wait one second", "wave ; wait 1 s", False),
+        ("wait, bring the hammer", "bring the hammer to me", False),
+    ],
+)
+def test_a_wait_that_was_said_with_its_length_is_not_lost(
+    said: str, plain: str, lost: bool
+) -> None:
+    goals = tuple(goal for part in plain.split(" ; ") for goal in meant(part))
+    assert mismatches.waits_for_nothing(words_in(said), goals) is lost
+
+
+def test_whose_something_is_and_why_a_thing_is_so_is_in_no_goal() -> None:
+    assert mismatches.whose_is_lost(words_in("whose hammer is that"), meant("find the hammer"))
+    why = meant("why did you stop")
+    assert mismatches.explains_another("why is that bellows so long", why)
+    assert not mismatches.explains_another("why is that bellows so long, do you know", why)
+    assert not mismatches.explains_another("why did that fail", why)
