@@ -126,8 +126,8 @@ def setup(where: Setting, options: Seeded, folder: Path, *, handle: Handle | Non
         if not as_json:
             say(text, err=True)
 
-    alone = own_eyes.trusted(where.world, where.robot_name) == "camera"
-    if there is None and options.eyes == "auto" and not alone:
+    told_by = own_eyes.trusted(where.world, where.robot_name)
+    if there is None and options.eyes == "auto" and told_by == "oracle":
         tell(own_eyes.untried(where.world.name))
     where = lidar_maps.localised(where, by, tell=tell)
     kind: runtimes.Kind = "fast" if options.fast else "live"

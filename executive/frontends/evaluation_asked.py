@@ -22,7 +22,7 @@ _Words = Annotated[tuple[str, ...], msgspec.Meta(max_length=MOST_WORDS)]
 
 
 class Asked(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """The options that say which runs there are; as of `Eval`."""
+    """The options that say which runs there are; as of `Eval`, and left out: as it once was."""
 
     missions: _Words = ()
     tasks: _Words = ()

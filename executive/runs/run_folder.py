@@ -44,7 +44,8 @@ class Header(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
     """What a run was started with: enough to start it again (`run.json`).
 
     What was asked for stands here as `text` for people; what jobs are made of, in the journal.
-    `reality`: the profile of the simulated one (docs/realities.md).
+    `reality`: the profile of the simulated one (docs/realities.md); a journal that names none, nor
+    eyes, is of a time when there was no other.
     `driver`: of the motors, where that is not the one that the robot's description names.
     `eyes`: who told where the things were, the oracle or the robot's own camera.
     `localisation`: who told where the robot was, the oracle or its own lidar.

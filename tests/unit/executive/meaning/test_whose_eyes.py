@@ -28,7 +28,7 @@ def test_who_is_asked_for_by_name_it_is():
     assert seen_by("camera", "flat:7").eyes == "camera"
 
 
-def test_with_its_own_eyes_it_is_told_no_mass_of_anything():
+def test_with_its_own_eyes_it_is_told_other_masses_than_the_world_has():
     masses = {info.id: info.mass_kg for info in seen_by("oracle", "kitchen").map.objects}
     told = {info.id: info.mass_kg for info in seen_by("auto", "kitchen").map.objects}
     assert told.keys() == masses.keys()
