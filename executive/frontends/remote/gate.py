@@ -17,7 +17,7 @@ from contextlib import suppress
 from executive.frontends.remote.authority import Authority, Guest
 from executive.frontends.remote.tie import Tie
 from executive.frontends.remote.visit import Visit
-from executive.frontends.remote.wire import BEAT_S
+from executive.frontends.remote.wire import BEAT_S, hasten
 from executive.frontends.service import messages as m
 from executive.frontends.service.client import Connection, press
 from executive.frontends.service.place import Place
@@ -129,7 +129,7 @@ class Gate:
         reader = asyncio.StreamReader(limit=m.MAX_REQUEST)
         protocol = asyncio.StreamReaderProtocol(reader)
         try:
-            connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            hasten(connection)
             transport, _ = await loop.connect_accepted_socket(
                 lambda: protocol, connection, ssl=self._context, ssl_handshake_timeout=SHAKE_S
             )

@@ -2,7 +2,8 @@
 
 It holds a place (`executive.frontends.service.place`) of the invitation's name, so that `humanoid
 say`, `stop`, `attach` and the like find the robot there. Each of their connections becomes one to
-the gate, which beats; one more is there always, so that the gate knows whether the link holds.
+the gate, which beats; two more are there always: a link, so that the gate knows whether it holds,
+and a spare for whoever asks next, so that a stop need not wait for handshakes.
 """
 
 from __future__ import annotations
@@ -18,7 +19,8 @@ import msgspec
 
 from executive.frontends.line_server import is_own
 from executive.frontends.remote.invitation import SERVER_NAME, Invitation, client_context
-from executive.frontends.remote.wire import BEAT, BEAT_S, BYE, RobotClock, echoed_s, sent
+from executive.frontends.remote.spare import AGAIN_S, Spare, Streams
+from executive.frontends.remote.wire import BEAT, BYE, RobotClock, beat, echoed_s, hasten, sent
 from executive.frontends.service import messages as m
 from executive.frontends.service import place as places
 from executive.frontends.service.place import Place, Running
@@ -27,14 +29,12 @@ from robot.errors import ConfigError, Problem, ProcessError
 from robot.exit_status import ExitStatus
 
 CONNECT_S = 3.0
-AGAIN_S = 0.5
 MOST_CLIENTS = 16
 MOST_BEHIND = 1 << 20
 """Bytes that may wait for somebody who reads slowly."""
 SILENT_S = 1.0
 """So long the gate's beats may fail to come: the network is gone, though no end of it has come."""
 
-Streams = tuple[asyncio.StreamReader, asyncio.StreamWriter]
 Tell = Callable[[str], None]
 
 
@@ -80,13 +80,14 @@ class Relay:
         listening.settimeout(0.0)
         loop = asyncio.get_running_loop()
         linking = asyncio.create_task(self._keep_link(link))
+        spare = Spare(self._connected, self._told)
         try:
             while True:
                 connection, _ = await loop.sock_accept(listening)
                 if not is_own(connection) or len(self._serving) >= MOST_CLIENTS:
                     connection.close()
                     continue
-                task = asyncio.create_task(self._serve(connection))
+                task = asyncio.create_task(self._serve(connection, spare))
                 self._serving.add(task)
                 task.add_done_callback(self._serving.discard)
         finally:
@@ -94,7 +95,7 @@ class Relay:
             linking.cancel()
             for task in tuple(self._serving):
                 task.cancel()
-            await asyncio.gather(linking, *self._serving, return_exceptions=True)
+            await asyncio.gather(linking, spare.close(), *self._serving, return_exceptions=True)
 
     # --- the link ---
 
@@ -117,8 +118,7 @@ class Relay:
                 self._invitation.host, self._invitation.port, ssl=self._context,
                 server_hostname=SERVER_NAME, limit=m.MAX_TOLD,
             )  # fmt: skip
-        sock: socket.socket = writer.get_extra_info("socket")
-        sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        hasten(writer.get_extra_info("socket"))
         writer.write(BEAT)
         return reader, writer
 
@@ -149,7 +149,7 @@ class Relay:
                     self._clock = RobotClock()  # its machine may have been booted
                 continue
             reader, writer = link
-            beating = asyncio.create_task(_beat(writer))
+            beating = asyncio.create_task(beat(writer))
             try:
                 async for _ in self._told(reader):  # nothing was asked
                     pass
@@ -169,15 +169,15 @@ class Relay:
 
     # --- those of this machine ---
 
-    async def _serve(self, connection: socket.socket) -> None:
+    async def _serve(self, connection: socket.socket, spare: Spare) -> None:
         """A terminal of this machine: each line goes on, and what is told comes back as it is."""
         reader, writer = await asyncio.open_unix_connection(sock=connection, limit=m.MAX_REQUEST)
         gate: asyncio.StreamWriter | None = None
         try:
-            there, gate = await self._connected()
+            there, gate = await spare.take()
             asking = asyncio.create_task(self._pass_on(reader, gate))
             both = {asking, asyncio.create_task(self._pass_back(there, writer)),
-                    asyncio.create_task(_beat(gate))}  # fmt: skip
+                    asyncio.create_task(beat(gate))}  # fmt: skip
             try:
                 await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
             finally:
@@ -224,13 +224,6 @@ def _reason(error: Exception) -> str:
     if isinstance(error, ssl.SSLError):
         return f"no TLS that is known here ({error.reason or error})"
     return getattr(error, "strerror", None) or str(error) or "no answer in time"
-
-
-async def _beat(writer: asyncio.StreamWriter) -> None:
-    """Beat until that is pointless."""
-    while not writer.transport.is_closing():
-        writer.write(BEAT)
-        await asyncio.sleep(BEAT_S)
 
 
 def _written(writer: asyncio.StreamWriter, data: bytes) -> bool:

@@ -348,14 +348,19 @@ def test_a_dead_network_is_told_and_not_waited_for(house):
         assert eventually(lambda: ask(place, m.Press(button="stop"))[0].status)
 
 
+def is_answered(place):
+    with suppress(Cut, Silent):
+        return ask(place, m.Status())[0].status != ExitStatus.BROKEN
+    return False
+
+
 def test_who_is_revoked_is_let_go(house):
     with house.visited() as (place, words):
         assert ask(place, m.Status())[0].standing
         house.authority.revoke("anna")
         assert eventually(lambda: any("is lost" in text for text in words))
-        with suppress(Cut, Silent):
-            assert ask(place, m.Status())[0].status == ExitStatus.BROKEN
-    assert "worth nothing" in house.said[-1]
+        assert eventually(lambda: not is_answered(place))
+        assert eventually(lambda: any("worth nothing" in text for text in house.said))
 
 
 def test_who_speaks_without_a_link_that_is_watched_is_not_heeded(house):
