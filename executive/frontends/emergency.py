@@ -12,6 +12,7 @@ from intents.letters import bare, without_sequences
 
 Wish = Literal["estop", "release", "reset"]
 AT_THE_ROBOT = "An emergency stop is undone by somebody who stands at the robot."
+AT_THE_MACHINE = "That names a file: it is for somebody at the robot's own machine."
 _WORD = "estop"
 
 

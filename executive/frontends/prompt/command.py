@@ -23,6 +23,11 @@ def anything(_rest: str) -> bool:
     return True
 
 
+def nowhere(_rest: str) -> bool:
+    """Nothing that follows names a file."""
+    return False
+
+
 def one_of(*words: str) -> Callable[[str], bool]:
     """Whether what follows is one of the words."""
     return lambda rest: rest in words
@@ -45,6 +50,7 @@ class Command:
         accepts: whether what follows makes this a command; else the line is a sentence.
         choices: what may follow, for completion.
         takes_sentence: what follows is a sentence.
+        files: whether what follows names a file: nobody far away reads or writes those.
         kind: what the choices are, for a message about one that is none.
     """
 
@@ -55,6 +61,7 @@ class Command:
     accepts: Callable[[str], bool] = alone
     choices: Callable[[], Iterable[str]] = nothing
     takes_sentence: bool = False
+    files: Callable[[str], bool] = nowhere
     kind: str = ""
 
     @property

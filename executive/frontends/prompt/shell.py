@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from executive.behaviours.ask import ANSWERS, Answer, answer_of
 from executive.engine.jobs import Job
-from executive.frontends.emergency import AT_THE_ROBOT, emergency, plain, undoes
+from executive.frontends.emergency import AT_THE_MACHINE, AT_THE_ROBOT, emergency, plain, undoes
 from executive.frontends.prompt.answering import Answering, Out
 from executive.frontends.prompt.brake import Brake
 from executive.frontends.prompt.command import Command
@@ -297,7 +297,7 @@ class Shell(Answering):
             else:
                 self.out("Nothing was done.")
         elif command is not None and command.accepts(rest):
-            command.run(rest)
+            self._run(command, rest)
         elif command is not None and command.accepts("") and polite(rest):
             command.run("")
         elif self._names_jobs(text):
@@ -311,6 +311,12 @@ class Shell(Answering):
             self.refuse(f"Not done: {command.misfit(rest)}", f"Use: {command.usage}")
         else:
             self.sentence(text)
+
+    def _run(self, command: Command, rest: str) -> None:
+        if self._afar and command.files(rest):
+            self.refuse(AT_THE_MACHINE)
+        else:
+            command.run(rest)
 
     def _names_jobs(self, text: str) -> bool:
         """Whether a line is about jobs by what they are called, and was done."""

@@ -24,14 +24,16 @@ from executive.frontends.service.place import Place
 from robot.errors import ConfigError, RobotError
 from robot.printable import printable_line
 
-MOST_IN = 32
-"""Connections at a time that were let in."""
+MOST_IN, MOST_IN_EACH = 64, 20
+"""Connections at a time that were let in: in all, and by one invitation."""
 MOST_ASKING = 8
 """Of these, that ask the robot something: it takes 16, and people at it come first."""
 MOST_SHAKING, MOST_SHAKING_EACH = 16, 4
 """Who has not shown a certificate yet: in all, and from one address."""
 SHAKE_S = 3.0
 AGAIN_S = 0.1
+LOOK_ANEW_S = 1.0
+"""How often it is looked up whether the invitations of who is in are worth something still."""
 
 Tell = Callable[[str], None]
 
@@ -111,6 +113,8 @@ class Gate:
             if guest is None:
                 self.tell(f"{address} came with an invitation that is worth nothing any more")
                 return
+            if sum(visit.guest == guest for visit in self._visits) >= MOST_IN_EACH:
+                return
             tie = self._ties.setdefault(guest.fingerprint, Tie(name=guest.name))
             visit = Visit(self, guest, tie, reader, writer)
             self._visits.append(visit)
@@ -140,25 +144,39 @@ class Gate:
         certificate = tls.getpeercert(binary_form=True) or b""
         return reader, asyncio.StreamWriter(transport, protocol, reader, loop), certificate
 
-    def is_good(self, guest: Guest) -> bool:
+    def _is_good(self, guest: Guest) -> bool:
         """Whether somebody who is in would be let in still."""
         with suppress(ConfigError):
             return guest in self._authority.guests() and self._authority.is_good(guest)
         return False
 
     def make_room(self) -> None:
-        """Let the visit go that asked least lately, before one more asks the robot something."""
+        """Let a visit go before one more asks the robot something.
+
+        Of whoever has most of them it is the one that asked least lately: a guest with many
+        connections takes nothing from others.
+        """
         asking = [visit for visit in self._visits if visit.asks]
         if len(asking) >= MOST_ASKING:
-            min(asking, key=lambda visit: visit.heard_s).end()
+            each = Counter(visit.guest.fingerprint for visit in asking)
+            _, most = each.most_common(1)[0]
+            greedy = [visit for visit in asking if each[visit.guest.fingerprint] == most]
+            min(greedy, key=lambda visit: visit.heard_s).end()
 
     # --- links ---
 
     async def _watch_links(self) -> None:
-        """Stop what somebody set going whose link is silent."""
+        """Stop what somebody set going whose link is silent; let go who is invited no more."""
         loop = asyncio.get_running_loop()
+        looked_s = loop.time()
         while True:
             await asyncio.sleep(BEAT_S / 2)
+            if loop.time() - looked_s > LOOK_ANEW_S:
+                looked_s = loop.time()
+                bad = {one for one in self._guests() if not self._is_good(one)}
+                for visit in self._visits:
+                    if visit.guest in bad:
+                        visit.end()
             silent = [tie for tie in self._ties.values() if tie.is_silent(loop.time())]
             await asyncio.gather(*(self.lose(tie) for tie in silent if tie.may_move))
 
@@ -175,6 +193,9 @@ class Gate:
                 self.tell(f"The link to {name} was lost: the robot was told to stop.")
         except RobotError as error:
             self.tell(f"The link to {name} was lost, and the robot cannot be told: {error}")
+
+    def _guests(self) -> set[Guest]:
+        return {visit.guest for visit in self._visits}
 
     def _open_jobs(self) -> set[int]:
         with Connection(self.place, patience_s=0.0) as connection:

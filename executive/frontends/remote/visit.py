@@ -40,8 +40,6 @@ OPEN_S = 60.0
 """How long what was said is followed until it has come to jobs, when who said it is gone."""
 MOST_BEHIND = 1 << 20
 """Bytes that may wait for somebody who reads slowly."""
-LOOK_ANEW_S = 1.0
-"""How often it is looked up whether the invitation is worth something still."""
 MOST_A_SECOND = 100
 """Lines of one connection; who sends more waits, so that others are heard."""
 NO_LINK = "Nobody would notice if this link broke: join the robot by `humanoid remote join`."
@@ -51,10 +49,6 @@ class Around(Protocol):
     """What a visit has around it: the gate."""
 
     place: Place
-
-    def is_good(self, guest: Guest) -> bool:
-        """Whether somebody who is in would be let in still."""
-        ...
 
     def make_room(self) -> None:
         """See to it that one more may ask the robot something."""
@@ -75,6 +69,7 @@ class Visit:
     """A connection.
 
     Attributes:
+        guest: who came.
         heard_s: when something else than a beat came last, by the loop's clock.
     """
 
@@ -83,7 +78,7 @@ class Visit:
         """Take one over; it is closed by whoever made it."""
         self.heard_s = asyncio.get_running_loop().time()
         self._gate = gate
-        self._guest = guest
+        self.guest = guest
         self._tie = tie
         self._reader = reader
         self._writer = writer
@@ -92,7 +87,7 @@ class Visit:
         self._heeding: asyncio.Task[None] | None = None
         self._pressing: set[asyncio.Task[None]] = set()
         self._beats = self._bye = self._is_gone = self._is_ended = False
-        self._looked_s = self._second_s = self.heard_s
+        self._second_s = self.heard_s
         self._lines = 0
 
     @property
@@ -130,7 +125,7 @@ class Visit:
     async def _leave(self) -> None:
         if not self._beats:
             return
-        self._tie.end(left=self._bye or self._is_ended)
+        self._tie.end(left=self._bye)
         if self._tie.is_lost:
             await self._gate.lose(self._tie)
         elif not self._tie.holds:
@@ -142,7 +137,7 @@ class Visit:
             while not self._bye:
                 async with asyncio.timeout(IDLE_S):
                     data = await self._reader.readline()
-                if not data.endswith(b"\n") or not self._is_welcome():
+                if not data.endswith(b"\n"):
                     return
                 await self._keep_pace()
                 asked = line(data)  # whoever speaks otherwise is none of ours
@@ -172,18 +167,10 @@ class Visit:
             self._beats = True
             self._tie.begin(now_s)
 
-    def _is_welcome(self) -> bool:
-        """Looks into the list again now and then: an invitation may be taken back."""
-        now_s = asyncio.get_running_loop().time()
-        if now_s - self._looked_s < LOOK_ANEW_S:
-            return True
-        self._looked_s = now_s
-        return self._gate.is_good(self._guest)
-
     async def _take(self, asked: m.Request) -> None:
-        asked = arrived(asked_by(self._guest.role, asked), now_s())
-        why = refusal(self._guest.role, asked)
-        if not why and isinstance(asked, m.Say) and not self._tie.holds:
+        asked = arrived(asked_by(self.guest.role, asked), now_s())
+        why = refusal(self.guest.role, asked)
+        if not why and _moves(asked) and not self._tie.holds:
             why = NO_LINK
         if why:
             self._answer(asked.number, ExitStatus.INVALID, [why])
@@ -200,7 +187,7 @@ class Visit:
         self._write(m.line_of(m.Ended(number=number, status=status)))
 
     async def _press(self, asked: m.Press) -> None:
-        why = printable_line(asked.why) or f"{printable_line(self._guest.name)} said stop from afar"
+        why = printable_line(asked.why) or f"{printable_line(self.guest.name)} said stop from afar"
         try:
             ended, words = await self._gate.pressed(
                 asked.button, why=why[: m.MAX_REASON], quiet=asked.quiet
@@ -248,3 +235,14 @@ class Visit:
             self._tie.jobs.update(told.jobs)
         if isinstance(told, m.Queued | m.Ended):
             self._tie.lines.discard((self, told.number))
+
+
+def _moves(asked: m.Request) -> bool:
+    """Whether the robot may move by it: somebody has to notice when the link breaks."""
+    match asked:
+        case m.Say() | m.Drive():
+            return True
+        case m.Press(button=button):
+            return button not in ANYBODYS
+        case _:
+            return False

@@ -35,6 +35,8 @@ from robot.printable import printable_line
 MOST_CLIENTS = 16
 MOST_LINES = 50
 """Lines that may wait; who types faster is told."""
+MOST_WAITS = 64
+"""That one client may have open: more than lines that may wait."""
 LOOK_S = 0.1
 KEPT_WORDS = 100
 """What was said last; who begins to watch is told."""
@@ -167,14 +169,16 @@ class Counter(Closing):
         with self._telling:
             self._tell_changes()
         with self._lock:
-            waits, self._waits = self._waits, []
+            waits = tuple(self._waits)
         for wait in waits:
             status = self._status_of(wait.jobs)
             if status is None:
-                with self._lock:
-                    self._waits.append(wait)
-            else:
-                self._end(wait.client, wait.number, status)
+                continue
+            with self._lock:
+                if wait not in self._waits:  # whoever waited has gone
+                    continue
+                self._waits.remove(wait)
+            self._end(wait.client, wait.number, status)
 
     def _tell_changes(self) -> None:
         """What is asked, how often it was told to stop, and how the robot is."""
@@ -362,7 +366,13 @@ class Counter(Closing):
 
     def _wait(self, client: Client, number: int, jobs: tuple[int, ...]) -> None:
         with self._lock:
-            self._waits.append(_Wait(client, number, jobs))
+            is_taken = sum(wait.client is client for wait in self._waits) < MOST_WAITS
+            if is_taken:
+                self._waits.append(_Wait(client, number, jobs))
+        if not is_taken:
+            text = f"Not waited for: you wait for {MOST_WAITS} things already."
+            client.send(m.line_of(m.Words(number=number, text=text)))
+            self._end(client, number, ExitStatus.INVALID)
 
     def _begin_to_watch(self, client: Client, asked: m.Watch) -> None:
         shell = self._shell

@@ -21,6 +21,8 @@ Button = Literal["stop", "estop", "release", "reset", "pause", "resume", "cancel
 BUTTONS: tuple[Button, ...] = get_args(Button)
 Text = Annotated[str, Meta(max_length=MAX_TEXT)]
 MAX_REASON = 100
+MOST_JOBS = 1000
+"""That somebody may wait for at once."""
 Reason = Annotated[str, Meta(max_length=MAX_REASON)]
 
 
@@ -95,7 +97,7 @@ class Drive(_Request, frozen=True, kw_only=True, tag="drive"):
 class Await(_Request, frozen=True, kw_only=True, tag="await"):
     """End when jobs are over that were asked for before, of an executive that is gone maybe."""
 
-    jobs: tuple[int, ...]
+    jobs: Annotated[tuple[int, ...], Meta(max_length=MOST_JOBS)]
 
 
 class Watch(_Request, frozen=True, kw_only=True, tag="watch"):

@@ -23,6 +23,7 @@ def commands(shell: Shell) -> tuple[Command, ...]:
         Command(
             name="save", usage="save mission FILE", summary="keep what was done as a mission",
             run=does.save, accepts=begins("mission", bare=False), choices=lambda: ("mission",),
+            files=bool,
         ),
         Command(
             name="help", usage="help [COMMAND | skills]",

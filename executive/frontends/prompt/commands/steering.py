@@ -32,6 +32,7 @@ def commands(shell: Shell) -> tuple[Command, ...]:
             name="run", usage="run MISSION [KEY=VALUE ...]",
             summary="check a mission, and queue it as one job",
             run=does.run, accepts=_is_mission, choices=samples, kind="mission",
+            files=lambda rest: rest.split(" ", maxsplit=1)[0] not in samples(),
         ),
         Command(
             name="pause", usage="pause", summary="come to a stand and hold the task there",

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from executive.frontends.console.desk import Desk, Order
-from executive.frontends.emergency import AT_THE_ROBOT
+from executive.frontends.emergency import AT_THE_MACHINE, AT_THE_ROBOT
 from executive.frontends.since_boot import now_s
 from intents.dialogue import Dialogue
 from robot.errors import RobotError
@@ -107,3 +107,20 @@ def test_an_emergency_stop_is_undone_by_nobody_afar_by_no_slip_either(tmp_path: 
         shell.line("yes")
         shell.line("estop reset")
         assert not shell.robot.executive.estop.latched
+
+
+@pytest.mark.parametrize("names", ["here.yaml", "/tmp/x.sh", ".profile.d/x.sh", "../x.yaml"])
+def test_nobody_afar_writes_or_reads_a_file(tmp_path: Path, monkeypatch, names):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "here.yaml").write_text("secret: yes\n")
+    before = sorted(tmp_path.iterdir())
+    said: list[str] = []
+    with puppet_shell(tmp_path / "run", said) as shell:
+        shell.line(f"save mission {names}", afar=True)
+        shell.line(f"run {Path(names).with_suffix('.yaml')}", afar=True)
+        assert sum(AT_THE_MACHINE in one for one in said) == 2
+        assert not any("secret" in one for one in said)
+        said.clear()
+        shell.line("run to the table", afar=True)  # no mission, but a sentence
+        assert not any(AT_THE_MACHINE in one for one in said)
+    assert [one for one in sorted(tmp_path.iterdir()) if one.name != "run"] == before

@@ -379,3 +379,22 @@ def test_a_prompt_is_told_of_stops_while_it_was_loaded(counter, told, place):
     known = views.told(hello)
     assert isinstance(known, views.Hello)
     assert (known.stops, known.stops_begun) == (1, 0)
+
+
+def test_who_waits_for_too_much_is_refused_and_costs_nothing(counter, told, place):
+    told.begin("something")
+    with Connection(place) as connection:
+        numbers = [connection.send(m.Await(jobs=(1,))) for _ in range(counters.MOST_WAITS + 1)]
+        ended = next(one for one in connection.told() if isinstance(one, m.Ended))
+    assert (ended.number, ended.status) == (numbers[-1], ExitStatus.INVALID)
+    with pytest.raises(Cut), Connection(place) as connection:
+        connection.ask(m.Await(jobs=(1,) * (m.MOST_JOBS + 1)), lambda _: None)
+
+
+def test_who_waited_and_went_is_forgotten(counter, told, place):
+    told.begin("something")
+    for _ in range(3):
+        with Connection(place) as connection:
+            connection.send(m.Await(jobs=(1,)))
+            connection.ask(m.Status(), lambda _: None)
+    assert eventually(lambda: not counter._waits)
