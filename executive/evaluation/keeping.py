@@ -37,6 +37,8 @@ def keep(run: Run, record: Record, left_by: Path, place: Path) -> Record:
     """
     if not worth_a_look(record) or not (left_by / JOURNAL).is_file():
         return record
+    if place.is_symlink():  # what is resumed may be a stranger's
+        return record
     with contextlib.suppress(OSError):
         place.mkdir(parents=True, exist_ok=True)
         if len(list(place.iterdir())) >= MOST_KEPT:

@@ -220,5 +220,5 @@ def _line(value: msgspec.Struct) -> bytes:
 def _decode(line: bytes, kind: type[S]) -> S | None:
     try:
         return msgspec.json.decode(line, type=kind)
-    except msgspec.DecodeError:
+    except (msgspec.DecodeError, RecursionError):
         return None

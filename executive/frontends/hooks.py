@@ -30,6 +30,8 @@ MOST_WAITING = 20
 """Events that wait for those before them; further ones are passed over."""
 LAST_S = 12.0
 """How long the end of a run waits for what is under way."""
+_LEADS = "-@"
+"""What begins so is an option of a command, or a file that it reads."""
 _PLACEHOLDER = re.compile(r"\{(event|text|cause)\}")
 
 Notify = Callable[[str | tuple[str, ...], dict[str, Any]], None]
@@ -115,6 +117,10 @@ class Notifier:
                 say(f"A hook did not work: {printable_line(str(error))[:300]}", err=True)
 
 
+class NoAnswerError(Exception):
+    """Whoever was to be told of an event did not take it."""
+
+
 def do(hook: str | tuple[str, ...], told: dict[str, Any]) -> None:
     """Run a command or tell an address of an event; raises what goes wrong."""
     data = msgspec.json.encode(told)
@@ -151,11 +157,12 @@ def filled(word: str, told: dict[str, Any]) -> str:
     """A word of a command with what happened put in for {text} and the like.
 
     What was said to the robot cannot become an option of that command: nothing is put into what
-    was put in, and a word that begins with no dash of the user's own begins with none.
+    was put in, and a word that begins with no dash of the user's own begins with none. Nor can it
+    name a file, as what begins with @ does for curl.
     """
 
     def put_in(found: re.Match[str]) -> str:
-        return printable_line(str(told[found[1]])).lstrip("-")
+        return printable_line(str(told[found[1]])).lstrip(_LEADS)
 
     full = _PLACEHOLDER.sub(put_in, word)
     return full if word.startswith("-") else full.lstrip("-")
@@ -166,5 +173,9 @@ def _post(address: str, data: bytes) -> None:
 
     with httpx.Client(trust_env=False, timeout=MOST_S, follow_redirects=False) as client:
         headers = {"content-type": "application/json"}
-        with client.stream("POST", address, content=data, headers=headers) as answer:
-            answer.raise_for_status()  # what it says besides is not read, however long it is
+        try:
+            with client.stream("POST", address, content=data, headers=headers) as answer:
+                answer.raise_for_status()  # what it says besides is not read, however long it is
+        except httpx.HTTPStatusError as error:  # the address may be a secret: it is not told
+            text = f"{error.request.url.host} answered {error.response.status_code}"
+            raise NoAnswerError(text) from None

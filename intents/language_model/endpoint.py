@@ -1,6 +1,8 @@
 """Where a language model is, what it may cost, and the secret that its host knows us by."""
 
 import ipaddress
+import re
+import unicodedata
 
 import httpx
 import msgspec
@@ -11,7 +13,7 @@ MAX_DEADLINE_S = 600.0
 class Key:
     """A secret that does not show itself in logs, tracebacks or journals."""
 
-    __slots__ = ("_secret",)
+    __slots__ = ("_secret", "_shown")
 
     def __init__(self, secret: str = "") -> None:
         """Keep a secret; an empty one stands for none.
@@ -22,6 +24,8 @@ class Key:
         if not (secret.isascii() and secret.isprintable()):
             raise ValueError("it holds more than one line of plain characters")
         self._secret = secret
+        # Also with what cannot be seen between its letters, or with wide ones.
+        self._shown = re.compile(r"[^!-~]*".join(map(re.escape, secret.replace(" ", ""))))
 
     def __repr__(self) -> str:
         return "Key(...)"
@@ -36,7 +40,7 @@ class Key:
 
     def hidden(self, text: str) -> str:
         """A text of the server's without the secret, which it may have sent back."""
-        return text.replace(self._secret, "(key)") if self._secret else text
+        return self._shown.sub("(key)", unicodedata.normalize("NFKC", text)) if self else text
 
 
 class Endpoint(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

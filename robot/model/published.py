@@ -34,16 +34,31 @@ class Published(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         """The folder in which `file` lies.
 
         Raises:
-            DescriptionError: naming every place looked at, and the cure.
+            DescriptionError: naming every place looked at, and the cure; or a place that holds
+                more than such a model.
         """
         bases = (description.resolve().parent, CHECKOUT)
         looked: list[str] = []
         for place in self.places:
             for base in bases:
                 folder = base / os.path.expanduser(place)  # noqa: PTH111 - never raises
+                if _holds_too_much(folder, description):
+                    text = f"places: {place} holds more than a published model"
+                    cure = "name the folder of that model alone"
+                    raise DescriptionError([Problem(text, str(description), suggestion=cure)])
                 if (folder / file).is_file():
                     return folder
                 if str(folder) not in looked:
                     looked.append(str(folder))
         text = f"the published model {file} is in none of {', '.join(looked)}"
         raise DescriptionError([Problem(text, str(description), suggestion=self.cure)])
+
+
+def _holds_too_much(folder: Path, description: Path) -> bool:
+    """Whether a folder is the root, the user's home or above it, or above the description's own.
+
+    Every mesh and picture of the folder may be read for the model.
+    """
+    folder = folder.resolve()
+    home, own = Path.home().resolve(), description.resolve().parent
+    return folder == Path(folder.anchor) or home.is_relative_to(folder) or folder in own.parents

@@ -101,7 +101,7 @@ def _listening(port: int) -> socket.socket:
 
 def _kept(folder: Path) -> Address | None:
     """The address of a console of this run before."""
-    with suppress(OSError, msgspec.DecodeError):
+    with suppress(OSError, msgspec.DecodeError, RecursionError):
         return msgspec.json.decode(read_secret(folder / FILE, limit=MAX_BYTES), type=Address)
     return None
 

@@ -262,7 +262,7 @@ def last(name: str | None) -> Place:
 
 def running(place: Place) -> Running | None:
     """What is up at a place; None where it does not say yet."""
-    with contextlib.suppress(OSError, msgspec.DecodeError):
+    with contextlib.suppress(OSError, msgspec.DecodeError, RecursionError):
         data = read_secret(place.folder / RUNNING, limit=MAX_BYTES)
         return msgspec.json.decode(data, type=Running)
     return None

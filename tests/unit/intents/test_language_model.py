@@ -210,6 +210,14 @@ def test_the_key_is_sent_and_shown_nowhere(caplog: pytest.LogCaptureFixture) -> 
     assert "s3cret" not in shown
 
 
+@pytest.mark.parametrize("between", ["", "\u200b", " ", "\n", "\u00ad"])
+@pytest.mark.parametrize("wide", [0, 0xFEE0])
+def test_the_key_is_not_shown_in_disguise_either(between: str, wide: int) -> None:
+    sent_back = between.join(chr(ord(letter) + wide) for letter in "s3cret")
+    assert Key("s3cret").hidden(f"no {sent_back}, no") == "no (key), no"
+    assert Key().hidden("s3cret") == "s3cret"
+
+
 def test_a_redirect_is_not_followed_and_the_key_stays() -> None:
     with serving(RIGHT) as elsewhere:
         there = f"{elsewhere.url}/chat/completions"

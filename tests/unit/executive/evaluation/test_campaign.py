@@ -182,6 +182,14 @@ def test_a_large_file_is_read_line_by_line(tmp_path):
         Results(tmp_path, fingerprint="x")
 
 
+def test_a_line_that_is_nested_without_end_is_none(tmp_path):
+    deep = b'{"key":"a","x":' + b"[" * 40_000 + b"]" * 40_000 + b"}\n"
+    whole = json.dumps(_plain(record())).encode() + b"\n"
+    (tmp_path / FILE).write_bytes(b'{"code":"x"}\n' + deep + whole)
+    with Results(tmp_path, fingerprint="x") as results:
+        assert list(results.records) == ["a/0"]
+
+
 def test_results_of_another_mission_are_not_taken_for_those_of_this_one(tmp_path):
     here, there = (Run(case=Case(name="a", mission=m), seed=0) for m in ("stand", "squat"))
     with Results(tmp_path, fingerprint="x") as results:

@@ -86,3 +86,10 @@ def test_a_campaign_in_which_everything_fails_does_not_fill_the_disk(tmp_path, m
 def test_a_place_that_takes_nothing_ends_no_evaluation(tmp_path):
     (tmp_path / "journals").write_text("a file")
     assert left_behind(tmp_path, run_of("a"), ok=False).journal == ""
+
+
+def test_nothing_is_kept_through_a_link(tmp_path):
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "journals").symlink_to(tmp_path / "elsewhere")
+    assert left_behind(tmp_path, run_of("a"), ok=False).journal == ""
+    assert not list((tmp_path / "elsewhere").iterdir())

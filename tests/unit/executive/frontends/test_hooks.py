@@ -6,6 +6,7 @@ import json
 import subprocess
 import sys
 import threading
+from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
 
 import pytest
@@ -99,6 +100,25 @@ def test_what_does_not_work_is_said(hook, capsys):
     notifier.note(event("job", state="done", text="bow"))
     notifier.finish()
     assert "A hook did not work" in capsys.readouterr().err
+
+
+def test_the_address_of_a_hook_may_be_a_secret(capsys):
+    class Refusing(BaseHTTPRequestHandler):
+        def do_POST(self):
+            self.send_error(501)
+
+        def log_message(self, *_):
+            pass
+
+    with HTTPServer(("127.0.0.1", 0), Refusing) as server:
+        threading.Thread(target=server.handle_request, daemon=True).start()
+        address = f"http://127.0.0.1:{server.server_port}/services/s3cret"
+        notifier = Notifier(Hooks(done=address), Path("/tmp"))
+        notifier.note(event("job", state="done", text="bow"))
+        notifier.finish()
+    said = capsys.readouterr().err
+    assert "127.0.0.1 answered 501" in said
+    assert "s3cret" not in said
 
 
 def test_what_a_hook_has_started_ends_with_it(tmp_path, monkeypatch):

@@ -96,6 +96,16 @@ def test_a_published_model_that_is_nowhere_is_an_error_with_the_cure(tmp_path):
     assert str(tmp_path / "first") in problem.message
 
 
+@pytest.mark.parametrize("place", ["/", "~", "..", "../..", "~/.."])
+def test_a_published_model_is_no_pretext_for_all_that_lies_around(tmp_path, monkeypatch, place):
+    own = tmp_path / "home" / "robots" / "mine"
+    own.mkdir(parents=True)
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    model = Published(places=(place,), cure="none", source="none")
+    with pytest.raises(DescriptionError, match="holds more than a published model"):
+        model.find("it.xml", description=own / "it.yaml")
+
+
 def test_a_warning_of_mujoco_goes_through_no_link_that_lies_where_we_stand(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     theirs = tmp_path / "theirs"
