@@ -168,17 +168,17 @@ class Noted(Told):
 
     def stop(self, why: str) -> None:
         """Told by a person's button."""
-        super().stop(why)
+        super().stop(why)  # pyright: ignore[reportUnknownMemberType]
         self._over()
 
     def stop_unsaid(self, why: str) -> None:
         """Told by something else: a link that is lost."""
-        super().stop_unsaid(why)
+        super().stop_unsaid(why)  # pyright: ignore[reportUnknownMemberType]
         self._over()
 
     def _over(self) -> None:
         for number in tuple(self.robot.jobs):
-            self.end(number, "cancelled")
+            self.end(number, "cancelled")  # pyright: ignore[reportUnknownMemberType]
         print(now_s(), flush=True)
 
 
