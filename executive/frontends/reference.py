@@ -14,6 +14,7 @@ from executive.engine import health_monitor
 from executive.evaluation.campaign import SHIPPED, Campaign, read
 from executive.trees.recovery import PER_STEP, PER_TASK, RULES
 from executive.trees.remedies import ASKING, HELP, REMEDIES, STEP_BACK_M, WAIT_S
+from robot.bringup import devices as device_table
 from robot.bringup import safety
 from robot.bus.topics import BY_NAME
 from robot.exit_status import BROKEN_CODES, MEANINGS
@@ -25,7 +26,15 @@ MARKS = "<!-- table: {name} -->", "<!-- end -->"
 SLOWER = frozenset({"DERATE", "RETURN"})
 """Levels at which the robot walks, and slower."""
 
-PAGES = ("executive.md", "failures.md", "health.md", "recovery.md", "evaluation.md", "safety.md")
+PAGES = (
+    "drivers.md",
+    "evaluation.md",
+    "executive.md",
+    "failures.md",
+    "health.md",
+    "recovery.md",
+    "safety.md",
+)
 
 WHAT = {
     "retry": "nothing first; it is planned anew, with another seed",
@@ -36,6 +45,11 @@ WHAT = {
     "get_up": "ask a person whether it may, and on `continue` get up and stand",
     "ask": "ask a person, and wait for `continue` or `give up`",
 }
+
+
+def devices() -> str:
+    """Who opens what, and which drivers there are of it."""
+    return _table(["device", "drivers", "opened by", "published on"], device_table.opened())
 
 
 def silences() -> str:
@@ -175,6 +189,7 @@ def controller_reactions() -> str:
 
 
 TABLES = {
+    "devices": devices,
     "motor ladder": motor_ladder,
     "motor alarms": motor_alarms,
     "bus owner": bus_owner,

@@ -43,11 +43,20 @@ class Family(Generic[D_co]):
         """The driver that the description names.
 
         Raises:
-            ConfigError: if there is none of that name, with file, line and the nearest name.
+            ConfigError: if there is none of that name, with file, line and the nearest name, or if
+                none is named and nobody simulates the device.
             DriverError: if what it is plugged into is missing.
         """
-        check(wiring.robot)
-        return self.drivers[wiring.robot.drivers.get(self.device, SIMULATED)](wiring)
+        robot = wiring.robot
+        check(robot)
+        name = robot.drivers.get(self.device, SIMULATED)
+        if name not in self.drivers:  # one that is named was checked
+            text = f"no driver of the device {self.device!r} is named, and nobody simulates it"
+            cure = f"name one of {', '.join(self.drivers)} in drivers, or do without the device"
+            raise ConfigError(
+                [config.place(yaml_nodes.read(robot.path()), "$").problem(text, cure)]
+            )
+        return self.drivers[name](wiring)
 
     def is_simulated(self, robot: RobotDescription) -> bool:
         """Whether a robot's device is, or would be."""

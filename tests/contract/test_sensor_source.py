@@ -1,4 +1,7 @@
-"""What every driver of a sensor promises, tried on each row of the registry."""
+"""What every driver of a sensor promises, tried on each row of the registry.
+
+A new driver is a row of `BENCHES`; all else that is to be known of it says its `Device`.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -28,22 +31,34 @@ from tests.fakes.motors import FakePlant
 ROBOT = description.load("juno")
 COUNT = len(ROBOT.motors)
 FAMILIES = {family.device: family for family in (IMU, FORCE, RGBD, *SENSES)}
-CALIBRATION = {
-    "imu": ROBOT.sensors.imu, "force": None, "camera": ROBOT.sensors.camera,
-    "rgbd": ROBOT.sensors.camera, "lidar": ROBOT.sensors.lidar, "battery": ROBOT.battery,
-}  # fmt: skip
+SENSORS = ROBOT.sensors
 
 
 @dataclass
 class Device:
-    """A driver, its family's name, and what makes the device measure and gives the truth."""
+    """A driver, and what its device is.
 
-    name: str
+    Attributes:
+        source: the driver.
+        measure: makes the device measure at a time [s], and gives the truth.
+        calibration: what the driver knows of it.
+        frame: the site of the body that it sits at; empty of what has no place.
+        period_s: its own pace, if it measures no sooner; a multiple of a millisecond.
+    """
+
     source: SensorSource
     measure: Callable[[float], object]
+    calibration: object = None
+    frame: str = ""
+    period_s: float = 0.1
+
+    @property
+    def stamps_s(self) -> list[float]:
+        """Of three measurements at its pace."""
+        return [round(count * self.period_s, 3) for count in (1, 2, 3)]
 
 
-def bus_device(name, topic, reading):
+def bus_device(name, topic, reading, calibration, frame):
     def bench(tmp_path: Path) -> Device:
         bus = LocalBus()
         wiring = Wiring(robot=ROBOT, clock=SimulatedClock(), bus=bus)
@@ -53,12 +68,12 @@ def bus_device(name, topic, reading):
             bus.publish(emulated(topic), message)
             return message
 
-        return Device(name, FAMILIES[name].make(wiring), measure)
+        return Device(FAMILIES[name].make(wiring), measure, calibration, frame)
 
     return bench
 
 
-def inside_here(name):
+def inside_here(name, calibration, frame):
     def bench(tmp_path: Path) -> Device:
         plant = FakePlant()
         wiring = Wiring(robot=ROBOT, clock=SimulatedClock(), bus=LocalBus(), plant=plant)
@@ -67,12 +82,12 @@ def inside_here(name):
             plant.time_ms = round(1000 * stamp_s)
             return getattr(plant.read(), name)
 
-        return Device(name, FAMILIES[name].make(wiring), measure)
+        return Device(FAMILIES[name].make(wiring), measure, calibration, frame)
 
     return bench
 
 
-def inside_elsewhere(name):
+def inside_elsewhere(name, calibration, frame):
     def bench(tmp_path: Path) -> Device:
         plant, server, clock = FakePlant(COUNT), PlantServer(ROBOT, tmp_path), SimulatedClock()
         there = SharedPlant(ROBOT, tmp_path, clock=clock)
@@ -84,7 +99,7 @@ def inside_elsewhere(name):
             return getattr(plant.sample, name)
 
         measure(0.0)  # opening waits for a first one
-        return Device(name, FAMILIES[name].make(wiring), measure)
+        return Device(FAMILIES[name].make(wiring), measure, calibration, frame)
 
     return bench
 
@@ -100,7 +115,7 @@ def webcam(tmp_path: Path) -> Device:
         capture.show(pixels)
         return source.image(pixels, stamp_s)
 
-    return Device("rgbd", source, measure)
+    return Device(source, measure, ROBOT.sensors.camera, ROBOT.sensors.camera.site)
 
 
 def realsense(tmp_path: Path) -> Device:
@@ -115,7 +130,7 @@ def realsense(tmp_path: Path) -> Device:
         camera.frames.append(frame)
         return source.image(frame, camera.lens, stamp_s)
 
-    return Device("rgbd", source, measure)
+    return Device(source, measure, ROBOT.sensors.camera, ROBOT.sensors.camera.site)
 
 
 def picture(stamp_s: float) -> RgbdImage:
@@ -137,15 +152,23 @@ def power(stamp_s: float) -> PowerState:
     return PowerState(stamp_s=stamp_s, charge=0.5, power_w=90.0, source="emulated")
 
 
+IMU_IS = "imu", SENSORS.imu, SENSORS.imu.site
+FORCE_IS = "force", None, ""
 BENCHES = {
-    ("imu", "simulated"): (inside_here("imu"), inside_elsewhere("imu")),
-    ("force", "simulated"): (inside_here("force"), inside_elsewhere("force")),
-    ("camera", "simulated"): (bus_device("camera", topics.DEPTH, image),),
-    ("rgbd", "simulated"): (bus_device("rgbd", topics.RGBD, picture),),
+    ("imu", "simulated"): (inside_here(*IMU_IS), inside_elsewhere(*IMU_IS)),
+    ("force", "simulated"): (inside_here(*FORCE_IS), inside_elsewhere(*FORCE_IS)),
+    ("camera", "simulated"): (
+        bus_device("camera", topics.DEPTH, image, SENSORS.camera, SENSORS.camera.site),
+    ),
+    ("rgbd", "simulated"): (
+        bus_device("rgbd", topics.RGBD, picture, SENSORS.camera, SENSORS.camera.site),
+    ),
     ("rgbd", "uvc"): (webcam,),
     ("rgbd", "realsense"): (realsense,),
-    ("lidar", "simulated"): (bus_device("lidar", topics.LIDAR, scan),),
-    ("battery", "simulated"): (bus_device("battery", topics.POWER, power),),
+    ("lidar", "simulated"): (
+        bus_device("lidar", topics.LIDAR, scan, SENSORS.lidar, SENSORS.lidar.site),
+    ),
+    ("battery", "simulated"): (bus_device("battery", topics.POWER, power, ROBOT.battery, ""),),
 }
 
 
@@ -185,7 +208,7 @@ def test_a_closed_driver_refuses(device: Device):
 def test_a_reading_is_what_was_measured_and_comes_once(device: Device):
     with device.source as source:
         source.read()
-        for stamp_s in (0.1, 0.2, 0.3):
+        for stamp_s in device.stamps_s:
             truth = device.measure(stamp_s)
             (reading,) = source.read()
             assert numbers(reading) == numbers(truth)
@@ -195,27 +218,26 @@ def test_a_reading_is_what_was_measured_and_comes_once(device: Device):
 
 def test_who_reads_late_gets_the_newest_last(device: Device):
     with device.source as source:
-        for stamp_s in (0.1, 0.2, 0.3):
+        for stamp_s in device.stamps_s:
             device.measure(stamp_s)
         stamps_s = [reading.stamp_s for reading in source.read()]
     assert stamps_s == sorted(set(stamps_s))
-    assert stamps_s[-1] == 0.3
+    assert stamps_s[-1] == device.stamps_s[-1]
 
 
 def test_its_frame_is_a_site_of_the_body(device: Device):
-    if device.source.frame:
-        assert BodyModel(ROBOT).site_id(device.source.frame) >= 0
-    else:
-        assert device.name in ("force", "battery")
+    assert device.source.frame == device.frame
+    if device.frame:
+        assert BodyModel(ROBOT).site_id(device.frame) >= 0
 
 
 def test_it_knows_its_calibration(device: Device):
-    assert device.source.calibration == CALIBRATION[device.name]
+    assert device.source.calibration == device.calibration
 
 
 @pytest.mark.parametrize("name", ["imu", "force"])
 def test_a_dead_plant_is_an_error_within_a_second(name: str, tmp_path: Path):
-    bench = inside_elsewhere(name)(tmp_path)
+    bench = inside_elsewhere(name, None, "")(tmp_path)
     clock = SimulatedClock()
     there = SharedPlant(ROBOT, tmp_path, clock=clock)
     wiring = Wiring(robot=ROBOT, clock=clock, bus=LocalBus(), plant=there)

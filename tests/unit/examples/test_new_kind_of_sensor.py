@@ -1,4 +1,4 @@
-"""The example of a new kind of sensor, with its row in the registry: it is published."""
+"""The example of a new kind of sensor, with its row in the registry: contract, and published."""
 
 import ast
 import dataclasses
@@ -15,6 +15,14 @@ from robot.drivers.registry import Sense
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.model import description
+from tests.contract.test_sensor_source import (  # noqa: F401 - run here on the bench below
+    Device,
+    test_a_closed_driver_refuses,
+    test_a_reading_is_what_was_measured_and_comes_once,
+    test_it_knows_its_calibration,
+    test_its_frame_is_a_site_of_the_body,
+    test_who_reads_late_gets_the_newest_last,
+)
 
 ABOVE = (
     "executive", "intents", "sim", "robot.bringup", "robot.control", "robot.perception",
@@ -41,6 +49,17 @@ def wiring(zone: Path, monkeypatch: pytest.MonkeyPatch) -> Wiring:
     drivers = {**ROBOT.drivers, "thermometer": "linux"}
     robot = msgspec.structs.replace(ROBOT, drivers=drivers)
     return Wiring(robot=robot, clock=SimulatedClock(), bus=LocalBus())
+
+
+@pytest.fixture
+def device(wiring: Wiring, zone: Path) -> Device:
+    def measure(stamp_s: float) -> thermometer.ComputerTemperature:
+        wiring.clock.sleep_until(stamp_s)
+        hot_c = 40.0 + stamp_s
+        zone.write_text(f"{1000 * hot_c:.0f}\n")
+        return thermometer.ComputerTemperature(stamp_s=stamp_s, temperature_c=hot_c)
+
+    return Device(ROW.make(wiring), measure, period_s=thermometer.PERIOD_S)
 
 
 def test_perception_publishes_it_once_a_second(wiring: Wiring, zone: Path):
@@ -73,14 +92,6 @@ def test_the_file_can_stand_among_the_drivers_as_it_is():
     names = [node.module or "" for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
     assert names
     assert not [name for name in names if name.startswith(ABOVE)]
-
-
-def test_a_closed_one_refuses(wiring: Wiring):
-    source = ROW.make(wiring)
-    with source:
-        pass
-    with pytest.raises(DriverError, match="not open"):
-        source.read()
 
 
 def test_a_computer_without_one_is_told_when_it_is_opened(wiring: Wiring, zone: Path):

@@ -44,7 +44,8 @@ def device(wiring: Wiring) -> Device:
         wiring.clock.sleep_until(stamp_s)
         return scan(stamp_s)
 
-    return Device("lidar", FAMILIES["lidar"].make(wiring), measure)
+    lidar = ROBOT.sensors.lidar
+    return Device(FAMILIES["lidar"].make(wiring), measure, lidar, lidar.site)
 
 
 def test_perception_publishes_it_like_any_lidar(wiring: Wiring):

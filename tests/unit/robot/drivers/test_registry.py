@@ -45,9 +45,26 @@ def test_the_shipped_robot_names_every_device():
 
 
 def test_what_is_not_named_is_simulated(robot):
-    registry.check(robot(""))
+    unnamed = robot("")
+    registry.check(unnamed)
+    wiring = Wiring(robot=unnamed, clock=SimulatedClock(), bus=LocalBus())
+    there = [sense for sense in registry.SENSES if sense.is_there(unnamed)]
+    assert {"camera", "lidar", "battery"} <= {sense.device for sense in there}
+    for sense in there:
+        assert sense.is_simulated(unnamed)
+        simulated = sense.drivers[registry.SIMULATED](wiring)
+        assert type(sense.make(wiring)) is type(simulated)
+
+
+def test_what_is_not_named_and_not_simulated_is_told(robot):
     wiring = Wiring(robot=robot(""), clock=SimulatedClock(), bus=LocalBus())
-    assert [sense.make(wiring).frame for sense in registry.SENSES] == ["head_camera", "lidar", ""]
+    nobody_s = registry.Family("nose", {"serial": lambda _wiring: None})
+    with pytest.raises(ConfigError) as caught:
+        nobody_s.make(wiring)
+    (problem,) = caught.value.problems
+    assert problem.message == "no driver of the device 'nose' is named, and nobody simulates it"
+    assert "serial" in problem.suggestion
+    assert problem.file == str(wiring.robot.path())
 
 
 @pytest.mark.parametrize(
