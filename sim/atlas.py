@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from robot.messages import ObjectInfo, Obstacle, PersonInfo, Place, Shape, WorldMap
+from robot.person_distances import PERSON_RADIUS_M
 from robot.se3 import SE3
 from sim import furniture
 from sim.footprint import Footprint
@@ -14,7 +15,6 @@ from sim.things.making import made
 from sim.world_schema import Furniture, Object, Person, Room, World
 
 WALL_M = 0.08
-PERSON_RADIUS_M = 0.25
 SPOT_M = 0.6
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from robot.errors import ConfigError
 from robot.messages import Place
+from robot.person_distances import PERSON_RADIUS_M
 from robot.se3 import SE3
 from sim import atlas
 from sim.footprint import Footprint, Point
@@ -120,7 +121,7 @@ def clear_of(world: World, point: Point, radius_m: float) -> str | None:
         if atlas.footprint(item).distance_m(point) < radius_m:
             return f"the {item.title}"
     for person in world.people:
-        if math.dist(person.at_m, point) < radius_m + atlas.PERSON_RADIUS_M:
+        if math.dist(person.at_m, point) < radius_m + PERSON_RADIUS_M:
             return person.title
     for room in world.rooms:
         if not atlas.near_walls(room, point, radius_m):

@@ -67,7 +67,6 @@ from robot.messages.speech import (
     Spoken,
 )
 from robot.messages.world_state import (
-    PERSON_RADIUS_M,
     Looked,
     ObjectInfo,
     Obstacle,
@@ -79,7 +78,6 @@ from robot.messages.world_state import (
 )
 
 __all__ = [
-    "PERSON_RADIUS_M",
     "Activity",
     "AskedEyes",
     "AskedLocalisation",

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from robot.messages.basics import Message, Side, Source
 from robot.messages.shapes import Shape
+from robot.person_distances import PERSON_RADIUS_M
 from robot.se3 import SE3
 from robot.usual_things import usual
 
@@ -91,10 +92,6 @@ class ObjectInfo(msgspec.Struct, frozen=True, kw_only=True):
     def full_name(self) -> str:
         """What it is called on screen: "the red cup"."""
         return f"the {self.color} {self.plain_name}" if self.color else f"the {self.plain_name}"
-
-
-PERSON_RADIUS_M = 0.25
-"""Of somebody's outline, where nobody says otherwise [m]."""
 
 
 class PersonInfo(msgspec.Struct, frozen=True, kw_only=True):

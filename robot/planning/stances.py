@@ -15,6 +15,7 @@ import numpy as np
 
 from robot.messages import Side
 from robot.model.handling import Lean, Reaching
+from robot.person_distances import CLEAR_M
 from robot.planning import numerics
 from robot.planning.floor import Floor
 from robot.planning.grasps import HandOption
@@ -38,9 +39,9 @@ CHUNK = 6000
 """So many stances are looked at together: numpy's overhead is small, few are looked at in vain."""
 OPTION_SHARE = 0.5
 """Of the candidates of a posture: so many are kept for every grasp alike, whatever it costs."""
-NEAR_PEOPLE_M, NEAR_PEOPLE_COST = 0.6, 1.0
-"""Of a hand that is raised, or at work, or hangs, so near to somebody's outline: within 0.5 m it
-stops. Hands hang at the body's sides, and sway up to who stands beside its stance."""
+NEAR_PEOPLE_COST = 1.0
+"""Of a hand that is raised, or at work, or hangs, within `CLEAR_M` of somebody's outline: within
+their zone it stops. Hands hang at the body's sides, and sway up to who stands beside its stance."""
 RAISED_AHEAD_M, RAISED_ASIDE_M = 0.30, 0.25
 """About where a raised hand is, from the standoff."""
 JITTER = 0.12
@@ -285,7 +286,7 @@ def _raised(stance: Array, back_m: Array, sign: Array) -> Array:
 def _is_near(people: Array, points: Array) -> Mask:
     """Which points of the floor are too near to somebody for a hand, shape (n,)."""
     far_m = np.hypot(*(points[:, None, :] - people[None, :, :2]).transpose(2, 0, 1))
-    return (far_m < people[None, :, 2] + NEAR_PEOPLE_M).any(axis=1)
+    return (far_m < people[None, :, 2] + CLEAR_M).any(axis=1)
 
 
 class _Standoffs:

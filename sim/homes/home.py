@@ -10,6 +10,7 @@ import msgspec
 import numpy as np
 
 from robot.errors import ConfigError, Problem
+from robot.person_distances import PERSON_RADIUS_M, ZONE_M
 from sim.footprint import Point
 from sim.homes import choosing, formed, layout, lived_in
 from sim.homes.catalogue import HomeKind, Someone, home_kind, stock
@@ -27,11 +28,9 @@ LEAST_SURFACES, LEAST_OBJECTS, MOST_THINGS = 5, 9, 400
 PEOPLE = (1, 3)
 PERSON_ROOM_M = 0.55
 """Of free floor around somebody."""
-PASSING_M = 0.95
-"""From somebody to ways that go by them: the robot keeps 0.68 m from their middle, and the zone
-that it stops in begins at 0.75 m."""
-VISIT_M = 1.6
-"""Somebody is visited within this distance."""
+PASSING_M = PERSON_RADIUS_M + ZONE_M + 0.2
+"""From somebody's middle to ways that go by them: 20 cm to spare of where the robot would stop. Its
+planner keeps less by itself: for Juno 0.68 m (body, `walking.room.beside_m`, person)."""
 STANDING_ROOM_M = 0.45
 """Of free floor around a spot, and around the robot's start."""
 APART_M = 1.5

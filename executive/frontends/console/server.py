@@ -37,9 +37,8 @@ from executive.frontends.console.steering import Steering
 from executive.frontends.console.telling import told
 from executive.frontends.output import say
 from executive.frontends.since_boot import now_s
-from executive.skills.motions.personal_space import ZONE_M
 from robot.errors import RobotError
-from robot.messages import PERSON_RADIUS_M
+from robot.person_distances import PERSON_RADIUS_M, ZONE_M
 from robot.reality.visual_scene import VisualScene
 
 PERIOD_S = 0.05

@@ -9,10 +9,11 @@ from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import step_to
 from executive.skills.motions.free_floor import may_stand, nearest_thing, things_around
 from executive.skills.motions.obstructions import may_step
-from executive.skills.motions.personal_space import CLEAR_M, ZONE_M, somebody_near
+from executive.skills.motions.personal_space import somebody_near
 from executive.skills.motions.planning import stance_of
 from executive.skills.motions.script import Script
 from robot.messages import PersonInfo, Side
+from robot.person_distances import CLEAR_M, ZONE_M
 from robot.se3 import SE3
 
 STEP_M, MOST_M = 0.1, 0.8

@@ -9,11 +9,8 @@ from executive.skills.motions.body_access import Body
 from executive.skills.motions.obstructions import clearance_m
 from executive.skills.motions.script import Script, give_up
 from robot.messages import Obstacle, PersonInfo
+from robot.person_distances import CLEAR_M, ZONE_M
 
-ZONE_M = 0.5
-"""Between a person and the middle of the body, or a hand [m]."""
-CLEAR_M = 0.6
-"""More than the zone, so that somebody at its edge does not stop and free the robot in turns."""
 BELIEVED_S = 10.0
 """Who was seen so lately is taken to be there still, unless the place was seen empty since."""
 STAYS_S = 4.0

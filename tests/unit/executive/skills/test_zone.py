@@ -5,11 +5,12 @@ import math
 import pytest
 
 from executive.skills.encounters import OVER_S, PLEAS, Encounters
-from executive.skills.motions.personal_space import PATIENCE_S, ZONE_M
+from executive.skills.motions.personal_space import PATIENCE_S
 from executive.skills.navigate import FloorPose, NavigateParams, Step
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
 from robot.messages import Grip, MoveArm, MoveHand, Obstacle, Shape, Walk, WalkTo
+from robot.person_distances import ZONE_M
 from robot.se3 import SE3
 from sim.people import wish_in
 from tests.fakes.stage import Stage
