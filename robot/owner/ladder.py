@@ -4,6 +4,10 @@ Nothing here reads a clock or moves a motor: signs with their durations come in,
 The most severe row wins. What is latched stays until a person resets it, and a reset is refused
 while the robot still gives torque, or while anything is wrong that a reset would not mend.
 `docs/safety.md` is made of the table.
+
+It is the lowest latch, the last that can hold motors back, and knows nothing of the one above it in
+software (`executive.engine.estop`). What the owner still sends goes through the last clamp
+(`robot.drivers.motors.limiter`), but not through the controller's (`robot.control.limits`).
 """
 
 from __future__ import annotations
