@@ -11,7 +11,8 @@ from executive.trees.recovery import Rule
 from robot.failures import FailureKind
 
 CODE = "slipping"
-KIND = FailureKind("the feet slip on the floor", "dry the floor")
+# Another cup may stand where the floor is dry, so that it spoils what is done with one thing.
+KIND = FailureKind("the feet slip on the floor", "dry the floor", spoils="thing")
 # Another try plans other footsteps; a step back leads to where it has just stood safely.
 RULE = Rule((("retry", 1), ("step_back", 1), ("ask", 1)))
 WISH = "please dry the floor before me"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from robot.failures import Failure
+from robot.failures import CATALOGUE, Failure
 
 
 class ExitStatus(IntEnum):
@@ -28,15 +28,13 @@ MEANINGS: dict[ExitStatus, str] = {
 }
 """What people see of them."""
 
-BROKEN_CODES = frozenset({"plant_lost", "internal"})
-"""Codes of failures that mean that the system broke, not the task."""
-
 
 def exit_status(reason: Failure | None) -> ExitStatus:
     """Of work that ended with a failure, or (None) without one."""
     if reason is None:
         return ExitStatus.DONE
-    return ExitStatus.BROKEN if reason.code in BROKEN_CODES else ExitStatus.FAILED
+    is_broken = CATALOGUE[reason.code].spoils == "system"
+    return ExitStatus.BROKEN if is_broken else ExitStatus.FAILED
 
 
 def in_short() -> str:

@@ -17,8 +17,8 @@ from executive.trees.remedies import ASKING, HELP, REMEDIES, STEP_BACK_M, WAIT_S
 from robot.bringup import devices as device_table
 from robot.bringup import safety
 from robot.bus.topics import BY_NAME
-from robot.exit_status import BROKEN_CODES, MEANINGS
-from robot.failures import CATALOGUE
+from robot.exit_status import MEANINGS
+from robot.failures import CATALOGUE, codes
 from robot.files import config
 
 MARKS = "<!-- table: {name} -->", "<!-- end -->"
@@ -103,8 +103,8 @@ def remedies() -> str:
 
 def hopeless() -> str:
     """Codes about which nothing is done."""
-    codes = ", ".join(f"`{code}`" for code, rule in RULES.items() if not rule.tries)
-    return f"Nothing is tried about {codes}.\n"
+    named = ", ".join(f"`{code}`" for code, rule in RULES.items() if not rule.tries)
+    return f"Nothing is tried about {named}.\n"
 
 
 def budgets() -> str:
@@ -118,10 +118,10 @@ def budgets() -> str:
 def failures() -> str:
     """The catalogue: what each code means, and what is done about it."""
     rows = [
-        [f"`{code}`", kind.meaning, kind.suggestion or "-", _tries(code)]
+        [f"`{code}`", kind.meaning, kind.suggestion or "-", kind.spoils, _tries(code)]
         for code, kind in CATALOGUE.items()
     ]
-    head = ["code", "meaning", "what a person can do", "what the robot does by itself"]
+    head = ["code", "meaning", "what a person can do", "spoils", "what the robot does by itself"]
     return _table(head, rows)
 
 
@@ -135,8 +135,8 @@ def _tries(code: str) -> str:
 
 def broken() -> str:
     """Codes that mean that the system broke."""
-    codes = ", ".join(f"`{code}`" for code in sorted(BROKEN_CODES))
-    return f"{codes} mean that the system broke, not the task.\n"
+    named = ", ".join(f"`{code}`" for code in sorted(codes("system")))
+    return f"{named} mean that the system broke, not the task.\n"
 
 
 def exit_statuses() -> str:

@@ -21,12 +21,9 @@ from executive.trees.idioms import once
 from executive.trees.parts import Each, Errand, below
 from executive.trees.recovery import resilient
 from intents.english.trouble import listing
-from robot.failures import Failure, failure
+from robot.failures import Failure, codes, failure
 
-HOPELESS = frozenset({
-    "fallen", "localisation_lost", "sensor_silent", "overheated", "motor_fault", "battery_low",
-    "emergency_stop", "controller_lost", "plant_lost", "cancelled", "internal",
-})  # fmt: skip
+HOPELESS = frozenset(codes("robot", "system"))
 """Failures of the robot itself: the next thing would fare no better."""
 
 

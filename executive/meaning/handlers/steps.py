@@ -12,12 +12,10 @@ from executive.skills.parameters import SkillParams
 from executive.skills.search import SearchParams
 from executive.trees.parts import Each, Errand, OnFail, Part, Series
 from intents import goals
+from robot.failures import codes
 from robot.messages import ObjectInfo, Place
 
-PASSED_OVER = (
-    "no_path", "path_blocked", "goal_in_collision", "no_stance", "object_not_seen",
-    "place_not_seen", "timeout", "walk_stalled",
-)  # fmt: skip
+PASSED_OVER = codes("look")
 """Failures of one look after which the next one may still find it."""
 
 
@@ -90,8 +88,8 @@ def visit(place: Place) -> Errand:
     return Errand(name=f"look over the {place.name}", params=params)
 
 
-def tolerant(part: Part, codes: Iterable[str] = PASSED_OVER) -> Part:
+def tolerant(part: Part, reasons: Iterable[str] = PASSED_OVER) -> Part:
     """A look that may come to nothing, for one of these reasons: the next one goes on."""
     nothing = Series(name="go on", parts=())
-    handlers = tuple((code, nothing) for code in codes)
+    handlers = tuple((code, nothing) for code in reasons)
     return OnFail(name=part.name, part=part, handlers=handlers)

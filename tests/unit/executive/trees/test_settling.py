@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 import pytest
 
 from executive.blackboard import Blackboard
+from executive.meaning.handlers.steps import PASSED_OVER
 from executive.skills.give import GiveParams
 from executive.skills.look import LookParams
 from executive.skills.pick import PickParams
@@ -13,7 +16,7 @@ from executive.skills.say import SayParams
 from executive.trees import parts as p
 from executive.trees.build import build, finished
 from executive.trees.each import HOPELESS
-from robot.failures import CATALOGUE, Failure, failure
+from robot.failures import CATALOGUE, Failure, Spoilt, codes, failure
 from tests.fakes.rig import Rig
 from tests.fakes.scripted_skills import Script
 
@@ -140,8 +143,14 @@ def test_a_robot_that_cannot_go_on_does_not_try_the_next(code):
     assert steps(rig) == ["pick up cup"]
 
 
-def test_hopeless_are_codes_of_the_catalogue():
-    assert set(CATALOGUE) >= HOPELESS
+def test_a_look_is_no_failure_of_the_robot_itself():
+    """A code is in one place of three, by its row of the catalogue."""
+    assert {kind.spoils for kind in CATALOGUE.values()} == set(get_args(Spoilt))
+    assert HOPELESS.isdisjoint(PASSED_OVER)
+    assert set(codes("system")) == {"plant_lost", "internal"}
+    assert {"fallen", "emergency_stop", "cancelled"} <= HOPELESS
+    assert {"object_not_seen", "no_path"} <= set(PASSED_OVER)
+    assert "out_of_reach" not in HOPELESS.union(PASSED_OVER)
 
 
 PUT = p.Errand(name="put", params=PlaceParams(object_id="cup", place_id="table"))
