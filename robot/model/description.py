@@ -156,7 +156,7 @@ class Gaze(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     shake_rad: q.Turn
     waist_yaw_rad: q.Turn = 0.0
     waist_pitch_rad: tuple[q.Angle, q.Angle] = (0.0, 0.0)
-    around_rad: q.Several[q.Angle] = (0.0, 0.9, -0.9, 0.0)
+    around_rad: q.Several[q.Angle]
 
 
 class Heating(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -1,6 +1,6 @@
 """How a body stands and walks: figures of its gait, and of keeping its balance.
 
-What has a value here may be left out of a description; it is Juno's then.
+No figure has a value here: all of them stand in a robot's own description.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ class Catching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     side_m: q.Length
     width_m: q.Margin
     swing_m_s: q.Speed
-    start_s: q.Duration = 0.06
-    double_support_s: q.Duration = 0.05
-    ignored_m: q.Margin = 0.02
-    retimed_m: q.Margin = 0.03
-    late_m: q.Margin = 0.03
+    start_s: q.Duration
+    double_support_s: q.Duration
+    ignored_m: q.Margin
+    retimed_m: q.Margin
+    late_m: q.Margin
 
 
 class SwingFoot(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -46,11 +46,11 @@ class SwingFoot(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         press_m: how far below it ends, at rest, in a step that is to catch the body.
     """
 
-    rising: q.Share = 0.45
-    longest_s: q.Duration = 0.6
-    touch_m: q.Margin = 0.001
-    touch_m_s: q.Speed = 0.10
-    press_m: q.Margin = 0.006
+    rising: q.Share
+    longest_s: q.Duration
+    touch_m: q.Margin
+    touch_m_s: q.Speed
+    press_m: q.Margin
 
 
 class Cruise(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -95,15 +95,15 @@ class Following(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     turn_1_s: q.Rate
     least_m_s: q.Speed
     slow_down_1_s: q.Rate
-    slow_in_bends_1_rad: q.Slowing = 1.0
-    turn_first_rad: q.Turn = 0.60
-    turn_done_rad: q.Turn = 0.40
-    aside: q.Share = 0.7
-    done_m: q.Margin = 0.12
-    stalled_m: q.Length = 0.08
-    stalled_rad: q.Turn = 0.25
-    least_s: q.Duration = 20.0
-    patience_s_m: q.Slowness = 12.0
+    slow_in_bends_1_rad: q.Slowing
+    turn_first_rad: q.Turn
+    turn_done_rad: q.Turn
+    aside: q.Share
+    done_m: q.Margin
+    stalled_m: q.Length
+    stalled_rad: q.Turn
+    least_s: q.Duration
+    patience_s_m: q.Slowness
 
 
 class LastSteps(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -119,7 +119,7 @@ class LastSteps(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     within_m: q.Length
     aside_m: q.Length
     turn_rad: q.Turn
-    facing_rad: q.Turn = 0.25
+    facing_rad: q.Turn
 
 
 class ExactSteps(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -133,15 +133,15 @@ class ExactSteps(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
             and a radian.
     """
 
-    tolerance_m: q.Margin = 0.03
-    tolerance_rad: q.Turn = 0.05236
-    there_m: q.Margin = 0.02
-    there_rad: q.Turn = 0.035
-    bears_m: q.Margin = 0.02
-    bears_rad: q.Turn = 0.03
-    least_s: q.Duration = 12.0
-    patience_s_m: q.Slowness = 15.0
-    patience_s_rad: q.TurnSlowness = 6.0
+    tolerance_m: q.Margin
+    tolerance_rad: q.Turn
+    there_m: q.Margin
+    there_rad: q.Turn
+    bears_m: q.Margin
+    bears_rad: q.Turn
+    least_s: q.Duration
+    patience_s_m: q.Slowness
+    patience_s_rad: q.TurnSlowness
 
 
 class Room(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -161,7 +161,7 @@ class Room(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     slow_m: q.Length
     beside_m: q.Margin
     before_edge_m: q.Length
-    beside_people_m: q.Margin = 0.12
+    beside_people_m: q.Margin
 
 
 class Walking(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -215,10 +215,10 @@ class Walking(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     following: Following
     last_steps: LastSteps
     room: Room
-    settle_s: q.Duration = 0.25
-    tall_m: q.Margin = 0.02
-    swing_foot: SwingFoot = SwingFoot()
-    exact_steps: ExactSteps = ExactSteps()
+    settle_s: q.Duration
+    tall_m: q.Margin
+    swing_foot: SwingFoot
+    exact_steps: ExactSteps
 
 
 class Gains(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -240,8 +240,8 @@ class Tasks(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     waist: Gains
     swing: Gains
     swing_turn: Gains
-    joints_1_s: q.Damping = 10.0
-    soles_1_s: q.Damping = 30.0
+    joints_1_s: q.Damping
+    soles_1_s: q.Damping
 
 
 class Falling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -253,9 +253,9 @@ class Falling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         upright_rad: leaning by less than this it is on its feet.
     """
 
-    tilt_rad: q.Turn = 0.9
-    low: q.Share = 0.5
-    upright_rad: q.Turn = 0.35
+    tilt_rad: q.Turn
+    low: q.Share
+    upright_rad: q.Turn
 
 
 class Balance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -300,8 +300,8 @@ class Balance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     dcm_integral_1_s: q.Damping
     dcm_integral_m: q.Margin
     tasks: Tasks
-    falling: Falling = Falling()
-    slid_m: q.Margin = 0.01
-    slid_rad: q.Turn = 0.05
-    bow_s: q.Duration = 0.8
-    pushed_m_s: q.Speed = 0.15
+    falling: Falling
+    slid_m: q.Margin
+    slid_rad: q.Turn
+    bow_s: q.Duration
+    pushed_m_s: q.Speed

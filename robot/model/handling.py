@@ -1,6 +1,7 @@
 """How a body uses its arms and hands: speeds, loads, reach, and from where it reaches out.
 
-What has a value here may be left out of a description; it is Juno's then.
+No figure has a value here: all of them stand in a robot's own description. What may be left out is
+what a robot has not (a turn of a lean), or was not measured.
 """
 
 from __future__ import annotations
@@ -42,13 +43,13 @@ class Arms(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     elbow_rad_s: q.TurnRate
     max_lift_kg: q.Mass
     max_payload_kg: q.Mass
-    line_most_m: q.Length = 0.05
-    line_done_m: q.Length = 0.006
-    line_done_rad: q.Turn = 0.04
-    line_near_m: q.Length = 0.02
-    joints_done_rad: q.Turn = 0.06
-    give_up_s: q.Duration = 1.5
-    still_rad_s: q.TurnRate = 0.1
+    line_most_m: q.Length
+    line_done_m: q.Length
+    line_done_rad: q.Turn
+    line_near_m: q.Length
+    joints_done_rad: q.Turn
+    give_up_s: q.Duration
+    still_rad_s: q.TurnRate
 
 
 class Gripping(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -99,22 +100,22 @@ class Gripping(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     spare_m: q.Margin
     open_to_take_m: q.Margin
     open_to_leave_m: q.Margin
-    done_m: q.Length = 0.004
-    still_m_s: q.Speed = 0.004
-    settle_s: q.Duration = 0.3
-    rest_s: q.Duration = 0.25
-    give_up_s: q.Duration = 2.0
-    load_s: q.Duration = 0.15
-    gap_m: q.Length = 0.015
-    held_within_m: q.Length = 0.07
-    lost_beyond_m: q.Length = 0.12
-    contact_n: q.Force = 0.6
-    press_m: q.Margin = 0.012
-    before_m: q.Margin = 0.022
-    behind_m: q.Margin = 0.035
-    low_m: q.Margin = 0.025
-    finger_half_m: q.Margin = 0.010
-    beside_m: q.Margin = 0.04
+    done_m: q.Length
+    still_m_s: q.Speed
+    settle_s: q.Duration
+    rest_s: q.Duration
+    give_up_s: q.Duration
+    load_s: q.Duration
+    gap_m: q.Length
+    held_within_m: q.Length
+    lost_beyond_m: q.Length
+    contact_n: q.Force
+    press_m: q.Margin
+    before_m: q.Margin
+    behind_m: q.Margin
+    low_m: q.Margin
+    finger_half_m: q.Margin
+    beside_m: q.Margin
 
 
 class Lean(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -160,7 +161,7 @@ class Carrying(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     aside_m: q.Several[q.Offset]
     up_m: q.Several[q.Offset]
     turns_rad: q.Several[q.Angle]
-    best_m: tuple[q.Offset, q.Offset] = (0.2, 0.2)
+    best_m: tuple[q.Offset, q.Offset]
 
 
 class Raising(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -173,11 +174,11 @@ class Raising(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         over_turns_rad: and may turn about the vertical.
     """
 
-    up_m: q.Several[q.Margin] = (0.10, 0.06, 0.03, 0.0)
-    back_m: q.Several[q.Margin] = (0.0, 0.06, 0.12, 0.18)
-    over_up_m: q.Several[q.Margin] = (0.16, 0.10, 0.06, 0.03, 0.0)
-    over_back_m: q.Several[q.Margin] = (0.0, 0.06, 0.12, 0.18, 0.26)
-    over_turns_rad: q.Several[q.Angle] = (0.0, 0.5, -0.5, 1.0, -1.0)
+    up_m: q.Several[q.Margin]
+    back_m: q.Several[q.Margin]
+    over_up_m: q.Several[q.Margin]
+    over_back_m: q.Several[q.Margin]
+    over_turns_rad: q.Several[q.Angle]
 
 
 class SteppingIn(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -192,15 +193,15 @@ class SteppingIn(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
         beside_edge_m: where it stands that reaches over an edge, from that edge.
     """
 
-    in_line_m: q.Margin = 0.05
-    in_line_rad: q.Turn = 0.12
-    bring_in_m: q.Margin = 0.12
-    bring_in_rad: q.Turn = 0.2
-    short_m: q.Margin = 0.04
-    short_rad: q.Turn = 0.1
-    nearer_m: q.Margin = 0.015
-    nearer_tolerance_m: q.Margin = 0.012
-    beside_edge_m: q.Margin = 0.20
+    in_line_m: q.Margin
+    in_line_rad: q.Turn
+    bring_in_m: q.Margin
+    bring_in_rad: q.Turn
+    short_m: q.Margin
+    short_rad: q.Turn
+    nearer_m: q.Margin
+    nearer_tolerance_m: q.Margin
+    beside_edge_m: q.Margin
 
 
 class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -240,7 +241,7 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     raised_hand_m: tuple[q.Offset, q.Offset, q.Offset]
     step_in_m: q.Several[q.Length]
     arm_room_m: q.Margin
-    over_room_m: q.Margin = 0.55
+    over_room_m: q.Margin
     floor_m: q.Length
     raise_within_m: q.Length
     steps_back_m: q.Several[q.Length]
@@ -249,8 +250,8 @@ class Reaching(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     carrying: Carrying
     deep_m: q.Several[tuple[q.Offset, q.Offset]] = ()
     surfaces_m: tuple[q.Offset, q.Offset] | None = None
-    raising: Raising = Raising()
-    stepping_in: SteppingIn = SteppingIn()
+    raising: Raising
+    stepping_in: SteppingIn
 
 
 class HandSpeeds(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -284,7 +285,7 @@ class Giving(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     held_out_m: q.Several[tuple[q.Offset, q.Offset, q.Offset]]
     pull_n: q.Force
     pulled_m: q.Length
-    pull_s: q.Duration = 0.15
+    pull_s: q.Duration
 
 
 class Handling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -305,4 +306,4 @@ class Signs(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     raised: str
     waving: q.Several[str]
     pointing_m: q.Several[q.Length]
-    ahead_m: q.Margin = 0.25
+    ahead_m: q.Margin

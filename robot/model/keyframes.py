@@ -38,8 +38,6 @@ class Motions(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
 class GettingUp(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """How the robot gets up from the floor, see robot/control/getting_up.py.
 
-    What has a value here may be left out of a description; it is Juno's then.
-
     Attributes:
         tries: most motions.
         motions: by how it lies.
@@ -52,9 +50,9 @@ class GettingUp(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 
     tries: q.Tries
     motions: Motions
-    speed: q.Share = 0.75
-    lying: q.Share = 0.65
-    upright: q.Share = 0.5
-    still_rad_s: q.TurnRate = 0.3
-    rest_s: q.Duration = 0.5
-    rest_limit_s: q.Duration = 4.0
+    speed: q.Share
+    lying: q.Share
+    upright: q.Share
+    still_rad_s: q.TurnRate
+    rest_s: q.Duration
+    rest_limit_s: q.Duration
