@@ -22,8 +22,11 @@ from executive.skills.stop import StopParams
 from executive.skills.wait import WaitParams
 from tests.fakes.stage import Stage
 
+WALK = NavigateParams(place_id="table")
+NOD = GestureParams(kind="nod")
+SPEAK = SayParams(text="hello")
 EXAMPLES = (
-    NavigateParams(place_id="table"),
+    WALK,
     PickParams(object_id="cup"),
     PlaceParams(object_id="cup", place_id="table"),
     LookParams(place_id="table"),
@@ -32,8 +35,8 @@ EXAMPLES = (
     GiveParams(object_id="cup", person_id="ann"),
     FollowParams(person_id="ann"),
     GestureParams(kind="wave"),
-    GestureParams(kind="nod"),
-    SayParams(text="hello"),
+    NOD,
+    SPEAK,
     AskParams(text="Are you well?", person_id="ann"),
     WaitParams(duration_s=1.0),
     StopParams(),
@@ -56,7 +59,7 @@ def test_a_skill_takes_what_it_says_and_no_more_than_at_most(params):
 
 
 def test_branches_conflict_where_two_want_the_same_part():
-    walk, nod, speak = (needed(EXAMPLES[index]) for index in (0, 9, 10))
+    walk, nod, speak = needed(WALK), needed(NOD), needed(SPEAK)
     assert conflicts([walk, speak]) == frozenset()
     assert conflicts([walk, speak, nod]) == {"head"}
-    assert needed_by([EXAMPLES[9], lambda _board: EXAMPLES[10]]) == {"head", "voice"}
+    assert needed_by([NOD, lambda _board: SPEAK]) == {"head", "voice"}
