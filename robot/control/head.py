@@ -10,6 +10,7 @@ import numpy as np
 from robot.control.legs import Legs
 from robot.kinematics.dynamics import Dynamics
 from robot.messages import Activity, Look
+from robot.model import looking
 from robot.model.body import BodyModel, Turn, as_index
 from robot.se3 import Array
 
@@ -51,9 +52,6 @@ class Head:
             self.activity = Activity(id=self.activity.id, status="done")
 
 
-VIEW_SHARE = 0.7  # of half the picture: what is further out may be cut by its edge
-
-
 class WaistGaze:
     """The gaze of a robot whose camera is fixed to its trunk.
 
@@ -70,9 +68,7 @@ class WaistGaze:
         self._legs, self._gaze = legs, body.description.gaze
         camera = body.description.sensors.camera
         self._camera = body.site_id(camera.site)
-        tangent = math.tan(0.5 * camera.fovy_rad)
-        self._half_down_rad = VIEW_SHARE * math.atan(tangent)
-        self._half_aside_rad = VIEW_SHARE * math.atan(tangent * camera.width / camera.height)
+        self._half_aside_rad, self._half_down_rad = looking.half_picture_rad(camera)
         motors, turns = body.description.indices("waist"), body.turns("waist")
         self._dofs = {turn: int(body.qpos_of[i]) for i, turn in zip(motors, turns, strict=True)}
         self._sign = -1.0 if body.waist_below else 1.0

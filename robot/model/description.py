@@ -204,7 +204,7 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     What is left out and 0 here is measured at its model when it is loaded: height of the shoulders
     above the floor, standing, and their distance from the middle; length of a stretched arm, from
     the shoulder to the grasp point; radius of the circle about the feet that holds the body and its
-    arms.
+    arms; how far the neck turns to the nearer side (0 of a robot without one).
     """
 
     name: q.Line
@@ -226,6 +226,7 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     shoulder_aside_m: q.Margin = 0.0
     arm_reach_m: q.Margin = 0.0
     body_radius_m: q.Margin = 0.0
+    neck_rad: q.Angle = 0.0
     heating: Heating
     overlay: str | None = None
     published: Published | None = None
@@ -362,8 +363,9 @@ def _measured(description: RobotDescription) -> RobotDescription:
     ]
     nominal = zip(joints.values(), description.posture("nominal"), strict=True)
     soles = [foot.sole_site for foot in description.feet.values()]
+    neck = next((joints[name] for name in description.groups["head"]), "")
     try:
-        found = measures.measure(model, dict(nominal), arms=arms, soles=soles)
+        found = measures.measure(model, dict(nominal), arms=arms, soles=soles, neck=neck)
     except KeyError:
         return description  # a name is not in the MJCF: BodyModel says which, with all others
     return msgspec.structs.replace(
@@ -372,6 +374,7 @@ def _measured(description: RobotDescription) -> RobotDescription:
         shoulder_height_m=description.shoulder_height_m or found.shoulder_height_m,
         arm_reach_m=description.arm_reach_m or found.arm_reach_m,
         body_radius_m=description.body_radius_m or found.body_radius_m,
+        neck_rad=description.neck_rad or found.neck_rad,
     )
 
 

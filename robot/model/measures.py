@@ -26,12 +26,13 @@ class Arm(msgspec.Struct, frozen=True):
 
 
 class Measures(msgspec.Struct, frozen=True):
-    """Sizes of a standing robot [m], see `RobotDescription`."""
+    """Sizes of a standing robot, see `RobotDescription`."""
 
     shoulder_height_m: float
     shoulder_aside_m: float
     arm_reach_m: float
     body_radius_m: float
+    neck_rad: float
 
 
 def measure(
@@ -40,8 +41,11 @@ def measure(
     *,
     arms: Sequence[Arm],
     soles: Sequence[str],
+    neck: str = "",
 ) -> Measures:
     """Sizes of a robot that stands with its joints so; lengths of arms are 0 where it has none.
+
+    `neck` is the joint that turns its head to a side.
 
     Raises:
         KeyError: if a joint or a site is not in the model.
@@ -58,6 +62,7 @@ def measure(
         shoulder_aside_m=float(shoulders[1]),
         arm_reach_m=min((_length_m(model, data, arm) for arm in arms), default=0.0),
         body_radius_m=_radius_m(model, data, feet.mean(axis=0)[:2]),
+        neck_rad=float(np.abs(model.joint(neck).range).min()) if neck else 0.0,
     )
 
 

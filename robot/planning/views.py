@@ -16,6 +16,8 @@ import msgspec
 import mujoco
 import numpy as np
 
+from robot.model import looking
+from robot.model.description import RobotDescription
 from robot.planning.base_path import LEAST
 from robot.planning.floor import Floor, with_room
 from robot.planning.numerics import Indices, Mask, even
@@ -36,10 +38,10 @@ ABOVE_M = 0.04
 """Half the height of a small thing: so much above the surface the line of sight ends."""
 STANDING_M = 0.05
 """What is so near to a point stands on it; perception takes that for seen up to 0.07 m."""
-HEAD_RAD, CONE_RAD = 0.95, 0.42
-"""How far the head is turned to a side, and what of a picture counts about its middle."""
+HEAD_SHARE = 0.95 / 1.4
+"""Of how far a robot looks to a side (`looking.aside_rad`): a view that is planned is one where it
+stands turned otherwise, too."""
 HEADINGS = 8
-WALK_M_S, TURN_RAD_S = 0.2, 0.4
 SET_OFF_S, TURN_S, LOOK_S = 5.0, 1.5, 0.7
 """As timed in a flat and an office: setting off and stepping in cost seconds on any way."""
 SWAY_M, NARROW_S_PER_M = 0.13, 120.0
@@ -64,6 +66,8 @@ def plan_look(body: Body, request: LookRequest) -> LookPlan:
     points, worth = np.array(request.points_W).reshape(-1, 3), np.array(request.worth)
     radius_m = body.description.body_radius_m
     around, start = request.around, request.start
+    robot = body.description
+    head_rad = HEAD_SHARE * looking.aside_rad(robot)
     floor = Floor(solids_of(around), with_room(around.map.bounds_m, *start[:2], radius_m=radius_m))
     standing = tuple(
         solid(thing.id, thing.X_WO, shape)
@@ -75,7 +79,7 @@ def plan_look(body: Body, request: LookRequest) -> LookPlan:
     clearances_m = floor.clearances_m(atlas.cells)
     stands = clearances_m >= radius_m
     narrow_m = np.maximum(0.0, radius_m + SWAY_M - clearances_m)
-    there_s = SET_OFF_S + lengths_m / WALK_M_S + LOOK_S + NARROW_S_PER_M * narrow_m
+    there_s = SET_OFF_S + lengths_m / looking.walk_m_s(robot) + LOOK_S + NARROW_S_PER_M * narrow_m
     things = Screens(
         tuple(solid(thing.id, thing.X_WO, thing.shape) for thing in around.objects),
         on_m=STANDING_M,
@@ -87,8 +91,8 @@ def plan_look(body: Body, request: LookRequest) -> LookPlan:
     turns = floor.clearance_m(*start[:2]) >= radius_m
     wanted, wanted_here = _from_elsewhere(request, atlas.cells, shown & reached, near)
     views = [
-        *_views_here(points, worth, wanted_here, start, turns=turns),
-        *_views_there(points, worth, wanted, atlas.cells, there_s),
+        *_views_here(points, worth, wanted_here, start, robot=robot, turns=turns),
+        *_views_there(points, worth, wanted, atlas.cells, there_s, head_rad=head_rad),
     ]
     beyond = shown.any(axis=1) & ~near & ~(shown & reached).any(axis=1)
     cut_off = tuple(np.flatnonzero(beyond).tolist())
@@ -97,7 +101,7 @@ def plan_look(body: Body, request: LookRequest) -> LookPlan:
     best = max(views, key=lambda view: view.worth_per_s)
     return LookPlan(
         stance=best.stance,
-        gazes_W=_gazes(points, worth, best, eye_m=_eye_m(body)),
+        gazes_W=_gazes(points, worth, best, eye_m=_eye_m(body), cone_rad=looking.cone_rad(robot)),
         sees=tuple(best.rows.tolist()),
         worth_per_s=best.worth_per_s,
         length_m=0.0 if best.cell is None else float(lengths_m[best.cell]),
@@ -130,24 +134,25 @@ def _past(things: Screens, points: Array, shown: Mask, eyes_W: Array) -> Mask:
 
 
 def _views_here(
-    points: Array, worth: Array, near: Mask, start: Stance, *, turns: bool
+    points: Array, worth: Array, near: Mask, start: Stance, *, robot: RobotDescription, turns: bool
 ) -> list[_View]:
     """The view without turning, and those after turning on the spot, if there is room for it."""
+    head_rad, rate_rad_s = HEAD_SHARE * looking.aside_rad(robot), looking.turn_rad_s(robot)
     rows = np.flatnonzero(near)
     bearings = np.arctan2(points[rows, 1] - start[1], points[rows, 0] - start[0])
     views: list[_View] = []
     for k in range(HEADINGS if turns else 1):
         yaw = start[2] + 2.0 * math.pi * k / HEADINGS
-        inside = rows[np.abs(_wrapped(bearings - yaw)) < HEAD_RAD]
+        inside = rows[np.abs(_wrapped(bearings - yaw)) < head_rad]
         if len(inside):
-            turn_s = TURN_S + abs(float(_wrapped(yaw - start[2]))) / TURN_RAD_S if k else 0.0
+            turn_s = TURN_S + abs(float(_wrapped(yaw - start[2]))) / rate_rad_s if k else 0.0
             rate = float(worth[inside].sum()) / (turn_s + LOOK_S)
             views.append(_View(rate, (*start[:2], float(_wrapped(yaw))), inside))
     return views
 
 
 def _views_there(
-    points: Array, worth: Array, shown: Mask, cells: Array, cost_s: Array
+    points: Array, worth: Array, shown: Mask, cells: Array, cost_s: Array, *, head_rad: float
 ) -> list[_View]:
     """The best view from somewhere else, if there is any.
 
@@ -160,27 +165,29 @@ def _views_there(
     bearings = np.arctan2(off[:, 1], off[:, 0])
     best = (0.0, 0, 0.0)
     for yaw in (2.0 * math.pi * k / HEADINGS for k in range(HEADINGS)):
-        inside = np.abs(_wrapped(bearings - yaw)) < HEAD_RAD
+        inside = np.abs(_wrapped(bearings - yaw)) < head_rad
         gains = np.bincount(columns[inside], worth[rows[inside]], minlength=len(cells))
         rates = gains / np.where(np.isfinite(cost_s), cost_s, np.inf)
         cell = int(np.argmax(rates))
         best = max(best, (float(rates[cell]), cell, yaw))
     rate, cell, yaw = best
-    inside = (columns == cell) & (np.abs(_wrapped(bearings - yaw)) < HEAD_RAD)
+    inside = (columns == cell) & (np.abs(_wrapped(bearings - yaw)) < head_rad)
     mean = _mean_bearing(bearings[inside], worth[rows[inside]])
-    seen = (columns == cell) & (np.abs(_wrapped(bearings - mean)) < HEAD_RAD)
+    seen = (columns == cell) & (np.abs(_wrapped(bearings - mean)) < head_rad)
     x_m, y_m = cells[cell].tolist()
     return [_View(rate, (x_m, y_m, mean), rows[seen], cell)]
 
 
-def _gazes(points: Array, worth: Array, view: _View, *, eye_m: float) -> tuple[Vector3, ...]:
+def _gazes(
+    points: Array, worth: Array, view: _View, *, eye_m: float, cone_rad: float
+) -> tuple[Vector3, ...]:
     """Points to look at so that all of a view comes into the picture, what is worth most first."""
     eye = np.array((*view.stance[:2], eye_m))
     left, lines = view.rows, points - eye
     lines /= np.maximum(np.linalg.norm(lines, axis=1, keepdims=True), 1e-9)
     gazes: list[Vector3] = []
     while len(left):
-        together = lines[left] @ lines[left].T > math.cos(CONE_RAD)
+        together = lines[left] @ lines[left].T > math.cos(cone_rad)
         first = int(np.argmax(together @ worth[left]))
         x, y, z = points[left[first]].tolist()
         gazes.append((x, y, z))

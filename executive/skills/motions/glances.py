@@ -13,15 +13,14 @@ from executive.skills.motions.body_access import Body
 from executive.skills.motions.obstructions import between, clearance_m
 from executive.skills.motions.survey import Survey
 from robot.messages import Obstacle
+from robot.model import looking
 from robot.se3 import Array, Vector3
 
 NEAREST_M, NEAR_M = 0.4, 1.9
 """Over the floor: eyes look down on what is nearer at too steep an angle, and from farther off it
 is not said that there is nothing (`robot.planning.views`)."""
-HEAD_RAD = 1.3
-"""How far the head turns to a side, a little less."""
-CONE_RAD = 0.42
-"""What of a picture counts about its middle."""
+HEAD_SHARE = 1.3 / 1.4
+"""Of how far a robot looks to a side (`looking.aside_rad`), a little less."""
 TRIES = 3
 """Directions that are tried; each is checked against all that stands near."""
 
@@ -31,30 +30,31 @@ def glance(body: Body, survey: Survey) -> Vector3 | None:
 
     The feet need not turn for it.
     """
-    rows = survey.left
+    rows, robot = survey.left, body.description
+    head_rad, cone_rad = HEAD_SHARE * looking.aside_rad(robot), looking.cone_rad(robot)
     points, worth = np.array(survey.points_W(rows)).reshape(-1, 3), np.array(survey.worth(rows))
     x_m, y_m, _ = body.X_WS.p
     off = points[:, :2] - (x_m, y_m)
     far_m = np.hypot(off[:, 0], off[:, 1])
     bearings = np.arctan2(off[:, 1], off[:, 0]) - body.X_WS.yaw_rad
     bearings = (bearings + np.pi) % (2.0 * np.pi) - np.pi
-    left = (far_m > NEAREST_M) & (far_m < NEAR_M) & (np.abs(bearings) < HEAD_RAD)
+    left = (far_m > NEAREST_M) & (far_m < NEAR_M) & (np.abs(bearings) < head_rad)
     near = [thing for thing in body.map.obstacles if clearance_m((x_m, y_m), thing) < NEAR_M]
     for _ in range(TRIES):
         if not left.any():
             return None
-        at = _best(bearings, worth, left)
+        at = _best(bearings, worth, left, cone_rad)
         x, y, z = points[at].tolist()
         if between((x_m, y_m), (x, y), _others(near, points[at]), height_m=z) is None:
             return (x, y, z)
-        left &= np.abs(bearings - bearings[at]) > CONE_RAD
+        left &= np.abs(bearings - bearings[at]) > cone_rad
     return None
 
 
-def _best(bearings: Array, worth: Array, left: NDArray[np.bool_]) -> int:
+def _best(bearings: Array, worth: Array, left: NDArray[np.bool_], cone_rad: float) -> int:
     """The point about whose direction most of what is left shows."""
     rows = np.flatnonzero(left)
-    together = np.abs(bearings[rows][:, None] - bearings[rows][None, :]) < CONE_RAD
+    together = np.abs(bearings[rows][:, None] - bearings[rows][None, :]) < cone_rad
     return int(rows[np.argmax(together @ worth[rows])])
 
 

@@ -19,6 +19,7 @@ from executive.skills.motions.script import OVER, GaveUp, Script
 from executive.skills.motions.support import surroundings
 from executive.skills.motions.survey import Rows, Survey
 from executive.skills.motions.walk import stand_still, turn_by, walk_near
+from robot.model import looking
 from robot.planning.requests import LookPlan, LookRequest, Stance
 from robot.se3 import Vector3, wrap_angle
 
@@ -33,8 +34,8 @@ NO_WAY = ("no_path", "goal_in_collision", "path_blocked")
 
 BESIDES_S = 240.0
 """What a skill may take besides looking: that is what all others may take in all."""
-PLACE_S, WALK_M_S = 15.0, 0.2
-"""Of looking a surface over, and the pace between them, stops and turns among it."""
+PLACE_S = 15.0
+"""Of looking a surface over."""
 DETOUR = 1.5
 """A round over n points of an area A is about as long as sqrt(n A); walls and doors make it longer.
 
@@ -55,7 +56,7 @@ def limit_s(body: Body, places: int | None = None) -> float:
     count = len(surfaces_of(world_map)) if places is None else places
     x0, y0, x1, y1 = world_map.bounds_m
     round_m = DETOUR * math.sqrt(count * (x1 - x0) * (y1 - y0))
-    return BESIDES_S + PLACE_S * count + round_m / WALK_M_S
+    return BESIDES_S + PLACE_S * count + round_m / looking.walk_m_s(body.description)
 
 
 def look_over(body: Body, survey: Survey, until: Until, *, stay: bool = False) -> Script[bool]:
