@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from robot.drivers.motors.can.frames import MAX_DATA, worst_bits, worst_fd_bits
@@ -54,11 +53,3 @@ def most_joints(
 def fitting(rate_hz: float, each_s: float) -> int:
     """How many joints one bus serves at a rate, whose command and reply take so long each."""
     return int(MOST_LOAD / (rate_hz * each_s) + 1e-9)
-
-
-def buses_needed(
-    joints: int, rate_hz: float, *, is_extended: bool, bitrate_hz: float, fd: FdPair | None = None
-) -> int:
-    """How many buses so many joints want at a rate; 0 if no number of them is enough."""
-    most = most_joints(rate_hz, is_extended=is_extended, bitrate_hz=bitrate_hz, fd=fd)
-    return math.ceil(joints / most) if most else 0

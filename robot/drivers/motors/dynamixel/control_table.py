@@ -108,7 +108,6 @@ BAUD_RATES_HZ = (9600, 57_600, 115_200, 1_000_000, 2_000_000, 3_000_000, 4_000_0
 """By the value of BAUD_RATE."""
 WATCHDOG_STEP_S = 0.02
 WATCHDOG_MOST = 127
-RETURN_DELAY_STEP_S = 2e-6
 
 HARDWARE_ERRORS = {
     0: "input_voltage", 2: "overheating", 3: "motor_encoder", 4: "electrical_shock", 5: "overload",

@@ -13,10 +13,8 @@ from robot.errors import DriverError
 
 PING, READ, WRITE, REBOOT = 0x01, 0x02, 0x03, 0x08
 SYNC_READ, SYNC_WRITE, FAST_SYNC_READ = 0x82, 0x83, 0x8A
-BULK_READ, BULK_WRITE = 0x92, 0x93
+BULK_READ = 0x92
 
-STATUS_BYTES = 11
-"""Of a status packet around its data."""
 FAST_FRAME, FAST_EACH = 8, 4
 """Of a fast status packet: before the first servo's part, and around each servo's data."""
 
@@ -68,15 +66,6 @@ def bulk_read(asked: Sequence[tuple[int, int, int]]) -> bytes:
         bytes((number,)) + _two(address) + _two(size) for number, address, size in asked
     )
     return packet(BROADCAST, BULK_READ, parts)
-
-
-def bulk_write(told: Sequence[tuple[int, int, bytes]]) -> bytes:
-    """Different bytes (id, address, data) into several servos, unanswered."""
-    _different([number for number, _, _ in told])
-    parts = b"".join(
-        bytes((number,)) + _two(address) + _two(len(data)) + data for number, address, data in told
-    )
-    return packet(BROADCAST, BULK_WRITE, parts)
 
 
 def fast_bytes(servos: int, size: int) -> int:

@@ -19,11 +19,6 @@ STATUS = 0x55
 ALERT = 0x80
 MOST_BYTES = 1024
 """Of a packet; whatever says that it is longer is none."""
-ERROR_NAMES = {
-    1: "result_fail", 2: "unknown_instruction", 3: "crc", 4: "data_range", 5: "data_length",
-    6: "data_limit", 7: "access",
-}  # fmt: skip
-"""Of a status packet, as the e-manual numbers them."""
 
 _PATTERN, _STUFFED = b"\xff\xff\xfd", b"\xff\xff\xfd\xfd"
 _BEFORE_LENGTH_ENDS = 7
@@ -59,7 +54,7 @@ class Status(NamedTuple):
 
     Attributes:
         id: of the servo.
-        error: what it made of the instruction; 0: all is well (`ERROR_NAMES`).
+        error: what it made of the instruction, as the e-manual numbers them; 0: all is well.
         is_alert: whether it has a hardware error to tell.
         data: what it was asked for.
     """
@@ -68,11 +63,6 @@ class Status(NamedTuple):
     error: int
     is_alert: bool
     data: bytes
-
-    @property
-    def error_name(self) -> str:
-        """Of the error, "" if there is none."""
-        return ERROR_NAMES.get(self.error, f"error_{self.error}") if self.error else ""
 
 
 def packet(to: int, instruction: int, parameters: bytes = b"") -> bytes:

@@ -17,8 +17,6 @@ from robot.errors import DriverError
 from robot.files import users_own
 
 SYSFS = Path("/sys/bus/usb-serial/devices")
-AS_SOLD_S = 0.016
-"""FTDI's latency timer where nobody changed it."""
 
 
 def check_ports(ports: Mapping[str, Port]) -> None:

@@ -12,7 +12,7 @@ from contextlib import suppress
 from typing import Protocol
 
 MODE1, MODE2, LED0, ALL_LED_OFF_H, PRE_SCALE = 0x00, 0x01, 0x06, 0xFD, 0xFE
-RESTART, AUTO_INCREMENT, SLEEP, ALL_CALL = 0x80, 0x20, 0x10, 0x01
+RESTART, AUTO_INCREMENT, SLEEP = 0x80, 0x20, 0x10
 TOTEM_POLE = 0x04
 """Of MODE2: outputs drive both ways; they change together when a transfer stops (OCH = 0)."""
 FULL_OFF = 0x10
@@ -22,7 +22,6 @@ MOST_BLOCK = 32
 """Bytes of one block of SMBus: eight outputs."""
 WAKES_S = 0.0005
 """Of its oscillator, once SLEEP is cleared."""
-LEAST_PRE_SCALE, MOST_PRE_SCALE = 3, 255
 OSCILLATOR_HZ = 25_000_000.0
 OFF = -1
 """In place of ticks: no pulse."""
