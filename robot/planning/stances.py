@@ -7,7 +7,7 @@ every heading; the floor decides which are free to stand on and to step in to.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import NamedTuple
 
@@ -156,6 +156,26 @@ def propose(
         seed: of the spread.
         stage: of the search: which leans.
     """
+    every = _gathered(options, references, reaching=reaching, sides=sides, stage=stage)
+    walk = np.hypot(every.stance[:, 0] - start[0], every.stance[:, 1] - start[1])
+    cost = every.cost + reference_cost[every.reference] + walk_cost_per_m * walk
+    cost = cost + NEAR_PEOPLE_COST * _is_near(people, references[:, :2])[every.reference]
+    cost = cost + NEAR_PEOPLE_COST * _is_near(people, every.stance[:, :2])
+    every = replace(every, cost=cost + JITTER * np.random.default_rng(seed).random(len(every)))
+    quotas = _Quotas(reaching, stage, options=len(options))
+    standoffs = _Standoffs(floor, start, radius_m, reaching)
+    return _sieved(every, floor, standoffs, quotas, reaching=reaching, people=people), len(every)
+
+
+def _gathered(
+    options: list[HandOption],
+    references: Array,
+    *,
+    reaching: Reaching,
+    sides: tuple[Side, ...],
+    stage: Stage,
+) -> Candidates:
+    """Every way that the leans of a stage have for it, on free floor or not, without standoffs."""
     stances: list[Array] = []
     headings: list[Array] = []
     costs: list[Array] = []
@@ -168,54 +188,84 @@ def propose(
         _around(option, reference, side, lean, reaching, into=(stances, headings, costs))
         kinds.append(np.tile([j, k, i, int(side == "left")], (len(costs[-1]), 1)))
     stance, heading, cost = (np.concatenate(part) for part in (stances, headings, costs))
-    tags = np.concatenate(kinds)
-    total = len(cost)
-    walk = np.hypot(stance[:, 0] - start[0], stance[:, 1] - start[1])
-    cost = cost + reference_cost[tags[:, 1]] + walk_cost_per_m * walk
-    cost = cost + NEAR_PEOPLE_COST * _is_near(people, references[:, :2])[tags[:, 1]]
-    cost = cost + NEAR_PEOPLE_COST * _is_near(people, stance[:, :2])
-    cost = cost + JITTER * np.random.default_rng(seed).random(total)
-    order = np.argsort(cost, kind="stable")
-    standoffs = _Standoffs(floor, start, radius_m, reaching)
+    option_of, reference_of, lean_of, left = np.concatenate(kinds).T
+    return Candidates(
+        stance=stance,
+        standoff_m=np.zeros(len(cost)),
+        heading=heading,
+        option=option_of,
+        reference=reference_of,
+        lean=lean_of,
+        left=left.astype(bool),
+        cost=cost,
+    )
+
+
+def _sieved(
+    every: Candidates,
+    floor: Floor,
+    standoffs: _Standoffs,
+    quotas: _Quotas,
+    *,
+    reaching: Reaching,
+    people: Array,
+) -> Candidates:
+    """Those that can be stood on and stepped in to, as many of each kind as there is a quota for.
+
+    They are gone through from the cheapest, and what the floor costs comes on top.
+    """
+    order, cost = np.argsort(every.cost, kind="stable"), every.cost.copy()
     beside = np.array([bool(lean.hand_rad) for lean in reaching.leans])
     kept: list[Indices] = []
     backs: list[Array] = []
-    left = np.array([lean.quota if Stage.of(lean) == stage else 0 for lean in reaching.leans])
-    share = np.repeat((OPTION_SHARE * left / len(options)).astype(int), len(options))
-    left -= share.reshape(len(reaching.leans), -1).sum(axis=1)
-    for first in range(0, total, CHUNK):
+    for first in range(0, len(every), CHUNK):
         rows = order[first : first + CHUNK]
-        kind = tags[rows, 2] * len(options) + tags[rows, 0]
-        rows = rows[(left[tags[rows, 2]] > 0) | (share[kind] > 0)]
-        clearance = floor.clearances_m(stance[rows, :2])
+        rows = rows[quotas.open_to(every.lean[rows], every.option[rows])]
+        clearance = floor.clearances_m(every.stance[rows, :2])
         cost[rows] += NARROW_COST_PER_M * np.maximum(0.0, reaching.roomy_m - clearance)
         rows = rows[clearance >= reaching.narrow_m]
-        back, tight = standoffs.lengths(stance[rows], beside=beside[tags[rows, 2]])
+        back, tight = standoffs.lengths(every.stance[rows], beside=beside[every.lean[rows]])
         cost[rows[tight]] += TIGHT_COST
         rows, back = rows[back > 0.0], back[back > 0.0]
-        sign = np.where(tags[rows, 3] == 1, 1.0, -1.0)
-        cost[rows] += NEAR_PEOPLE_COST * _is_near(people, _raised(stance[rows], back, sign))
-        inside = _within(tags[rows, 2] * len(options) + tags[rows, 0], share)
-        others = np.flatnonzero(~inside)
-        inside[others] = _within(tags[rows[others], 2], left)
+        sign = np.where(every.left[rows], 1.0, -1.0)
+        raised = _raised(every.stance[rows], back, sign)
+        cost[rows] += NEAR_PEOPLE_COST * _is_near(people, raised)
+        inside = quotas.take(every.lean[rows], every.option[rows])
         kept.append(rows[inside])
         backs.append(back[inside])
-        if not left.any() and not share.any():
+        if quotas.are_used_up:
             break
-    order, standoff = np.concatenate(kept), np.concatenate(backs)
-    again = np.argsort(cost[order], kind="stable")
-    order, standoff = order[again], standoff[again]
-    found = Candidates(
-        stance=stance[order],
-        standoff_m=standoff,
-        heading=heading[order],
-        option=tags[order, 0],
-        reference=tags[order, 1],
-        lean=tags[order, 2],
-        left=tags[order, 3].astype(bool),
-        cost=cost[order],
-    )
-    return found, total
+    rows, standoff_m = np.concatenate(kept), np.concatenate(backs)
+    again = np.argsort(cost[rows], kind="stable")
+    rows, standoff_m = rows[again], standoff_m[again]
+    return replace(every.take(rows), standoff_m=standoff_m, cost=cost[rows])
+
+
+class _Quotas:
+    """How many candidates are still wanted: of each lean, a share of them of every grasp alike."""
+
+    def __init__(self, reaching: Reaching, stage: Stage, *, options: int) -> None:
+        quotas = [lean.quota if Stage.of(lean) == stage else 0 for lean in reaching.leans]
+        self._left, self._options = np.array(quotas), options
+        each = (OPTION_SHARE * self._left / options).astype(int)
+        self._shares = np.repeat(each, options)
+        self._left -= self._shares.reshape(len(quotas), -1).sum(axis=1)
+
+    @property
+    def are_used_up(self) -> bool:
+        """Whether no more are wanted."""
+        return not self._left.any() and not self._shares.any()
+
+    def open_to(self, lean: Indices, option: Indices) -> Mask:
+        """Of which candidates some are wanted still, shape (n,)."""
+        return (self._left[lean] > 0) | (self._shares[lean * self._options + option] > 0)
+
+    def take(self, lean: Indices, option: Indices) -> Mask:
+        """Which of these are taken, first come first; they count from now on."""
+        inside = _within(lean * self._options + option, self._shares)
+        others = np.flatnonzero(~inside)
+        inside[others] = _within(lean[others], self._left)
+        return inside
 
 
 def _within(kinds: Indices, left: Indices) -> Mask:
