@@ -10,7 +10,7 @@ from typing import Any, cast
 import msgspec
 
 from sim.homes.home import Home
-from sim.homes.tasks import Task
+from sim.homes.task import Task
 from sim.world_kinds import OWN
 from sim.world_schema import Object
 

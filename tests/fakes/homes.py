@@ -5,7 +5,8 @@ from functools import cache
 from robot.reality.contract import Cast
 from sim.homes.casting import cast
 from sim.homes.home import Home, home
-from sim.homes.tasks import Task, tasks
+from sim.homes.task import Task
+from sim.homes.tasks import tasks
 
 SEEDS = range(6)
 
