@@ -46,6 +46,7 @@ from intents.stopping import is_stop
 from intents.third_look import third_look
 from intents.vocabulary import Vocabulary
 from intents.what_is_there import of_what_is_there
+from intents.witness import Hears, checked
 from intents.wording import sentence_case
 
 Fallback = Callable[[str, Vocabulary, Context], Outcome | None]
@@ -175,7 +176,10 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
     index = index_of(vocabulary)
     follows = bool(context.object or context.person or context.place or context.goals)
     read = _reader(vocabulary, context, heard)
-    last = third_look(text, index, found, read, follows=follows)
+    hear = Hears()
+    last = third_look(text, index, found, read, follows=follows, hear=hear)
+    if last is found:
+        last = checked(text, index, found, read, follows=follows, hear=hear)
     if last is not found and broken(last.goals, [text], vocabulary):
         last = found  # what is not to be done is not even offered
     if last is not found:

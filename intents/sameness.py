@@ -83,7 +83,22 @@ def _goal(goal: Plain, before: list[Plain]) -> Plain:
     for key in ("goals", "then", "else"):
         if key in goal:
             plain[key] = _normal(goal[key])
+    if kind == "if":
+        plain["then"] = _where_seen(plain["then"], plain["condition"])
     return plain
+
+
+def _where_seen(value: Any, condition: Plain) -> Any:
+    """What is done in a case, without where the thing or person was seen that makes it the case."""
+    if isinstance(value, list):
+        return [_where_seen(one, condition) for one in cast("list[Any]", value)]
+    if not isinstance(value, dict):
+        return value
+    known = cast("Plain", value)
+    seen = [condition.get(kind) for kind in ("object", "person")]
+    if "at" in known and "goal" not in known and known in seen:
+        return _value({key: one for key, one in known.items() if key != "at"})
+    return {key: _where_seen(one, condition) for key, one in known.items()}
 
 
 _SLOTS = {

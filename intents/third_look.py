@@ -91,9 +91,9 @@ _ALTERNATIVE, _ACT_MISSING = " or ", "What shall I do with"
 """In a question: what can be meant in two ways; what is named, and nothing is said to be done."""
 _SMALL_TALK = (Report, Cancel)
 """What is easily read out of what is said to anybody: "how is the day", "what is on the list"."""
-_STRANGE = 1
+STRANGE = 1
 """With so many unknown words an order that the grammar read whole is still plainly put."""
-_GREETING = re.compile(
+GREETING = re.compile(
     r"^\W*(?:(?:sorry|excuse me|hey|hi|hello|okay|ok|well|right|so)\b\W*)+", re.IGNORECASE
 )
 """Ahead of an order these leave it as plainly put."""
@@ -125,12 +125,12 @@ def third_look(
         hear: What says it in plain words; by default the network that comes with the package.
         fields: What was learnt of the choice; by default what comes with the package.
     """
-    names = _names(text, index)
+    names = names_in(text, index)
     least = _least(text, names, before, follows=follows)
     is_read = isinstance(before.outcome, Goals)
     if least >= NEVER and not (is_read and _is_weighed(text, names, before, follows=follows)):
         return before
-    own = _side(before, "whole", sight(text, index))
+    own = side_of(before, "whole", sight(text, index))
     if is_read and alone(text, names, own, fields) >= (TRUSTED if least < NEVER else CAREFUL):
         return before
     found = looked(text, index, before, read, hear)
@@ -179,7 +179,8 @@ def _says_less(both: Both) -> bool:
     return agree(both) or (done[0] == done[1] and len(own) > len(other))
 
 
-def _names(text: str, index: NameIndex) -> list[Name]:
+def names_in(text: str, index: NameIndex) -> list[Name]:
+    """The names of the world in a sentence."""
     said = units(words_of(text), index)
     return [Name(one.sort, one.names, one.is_whole, one.said) for one in said if one.names]
 
@@ -209,8 +210,8 @@ def looked(
     said = heard.paraphrase()
     other = None if said.text in (ASK, NOTHING) else read(said.text)
     seen = sight(text, index)
-    sides = _side(before, "whole", seen), _side(other, "plain", seen) if other else SILENT
-    return Both(text, _names(text, index), said.text, said.likely, *sides), other
+    sides = side_of(before, "whole", seen), side_of(other, "plain", seen) if other else SILENT
+    return Both(text, names_in(text, index), said.text, said.likely, *sides), other
 
 
 def _least(text: str, names: Sequence[Name], before: Attempt, *, follows: bool) -> float:
@@ -243,13 +244,13 @@ def _is_weighed(text: str, names: Sequence[Name], before: Attempt, *, follows: b
     if (
         says
         or _is_remarked_on(before)
-        or _refers(text, follows=follows)
+        or refers(text, follows=follows)
         or not is_known(before.goals)
     ):
         return False
     said = [name.said for name in names]
     short = is_plain(text) or len(before.goals) == 1
-    return not (short and is_plainly_put(_GREETING.sub("", text), said, strange=_STRANGE))
+    return not (short and is_plainly_put(GREETING.sub("", text), said, strange=STRANGE))
 
 
 def _is_kept(text: str, before: Attempt) -> bool:
@@ -269,11 +270,12 @@ def _is_plain(text: str, names: Sequence[Name], before: Attempt, *, follows: boo
     """Whether an order that the grammar read is plainly put, or refers to what was said before."""
     words, said = words_in(text), [name.said for name in names]
     beside = len(before.goals) > 1 and any(map(is_by_the_way, before.goals))
-    plain = is_plainly_put(_GREETING.sub("", text), said, strange=_STRANGE) and not beside
-    return _refers(text, follows=follows) or plain or not _TAKEN_BACK.isdisjoint(words)
+    plain = is_plainly_put(GREETING.sub("", text), said, strange=STRANGE) and not beside
+    return refers(text, follows=follows) or plain or not _TAKEN_BACK.isdisjoint(words)
 
 
-def _refers(text: str, *, follows: bool) -> bool:
+def refers(text: str, *, follows: bool) -> bool:
+    """Whether it may speak of what was said before, which the network has not heard."""
     return follows and not _REFERS.isdisjoint(words_in(text))
 
 
@@ -311,7 +313,8 @@ def _is_on_purpose(text: str, before: Attempt) -> bool:
     return bool(asks_which) or type(before.error) is Partly
 
 
-def _side(attempt: Attempt, words: Words, seen: Sight | None) -> Side:
+def side_of(attempt: Attempt, words: Words, seen: Sight | None) -> Side:
+    """What an attempt comes to, as the choice weighs it."""
     outcome = attempt.outcome
     goals = () if isinstance(outcome, Refusal) else outcome.goals
     puzzled = not isinstance(outcome, Goals) and outcome.puzzled

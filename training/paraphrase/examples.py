@@ -10,15 +10,15 @@ import msgspec
 
 from intents.context import Context
 from intents.english.paraphrase.paraphrasing import ASK, NOTHING
+from intents.english.paraphrase.pointing import pointing
 from intents.english.paraphrase.source import Unit, units, words_of
 from intents.english.words.names import index_of
 from intents.goals import Goal
 from intents.outcomes import Goals
 from intents.parser import first_look
+from intents.plain_words import plainly
 from intents.vocabulary import Vocabulary
 from training.marked import Marked
-from training.paraphrase.plain_words import plainly
-from training.paraphrase.pointing import pointing
 from training.trusting import is_meant
 
 

@@ -12,10 +12,10 @@ from intents.context import Context
 from intents.english.paraphrase.paraphrasing import ASK, NOTHING
 from intents.outcomes import Goals
 from intents.parser import first_look
+from intents.plain_words import plainly
 from intents.vocabulary import Names, Vocabulary
 from robot.files import plain_data
 from training.marked import Marked
-from training.paraphrase.plain_words import plainly
 
 PAIRS = Path(__file__).with_name("pairs")
 _SPOKEN = {"NO": NOTHING, "ASK": ASK}

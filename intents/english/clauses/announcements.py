@@ -1,7 +1,7 @@
 """What announces what is to come or says that it comes later, and asks for nothing by itself.
 
 "Three things I need from you."; "here's the plan:"; "you do one thing,"; "when that is done,";
-"and only then".
+"and only then"; "help, ...".
 """
 
 from intents.english.words import lexicon
@@ -37,6 +37,11 @@ _ANNOUNCED = lexicon.phrases(
     "not a second sooner,not a moment sooner,not a minute sooner,not a second before,"
     "not a moment before,first things first,to begin with,to start with,for a start,for starters"
 )
+_CALLS = lexicon.phrases(
+    "help,help me,help us,somebody help,someone help,help please,please help,please help me,"
+    "i need help,i need your help,we need help,can you help me,could you help me"
+)
+"""Ahead of an order these only call for whoever is to do it."""
 _THEN = lexicon.phrases("only then,not until then,not before that,only after that")
 _FIRST_OF_ALL = lexicon.phrases(
     "before anything else,before you do anything else,before doing anything else,before all else"
@@ -61,6 +66,9 @@ def announced_end(text: Text, at: int) -> int | None:
     end = text.phrase_end(_ANNOUNCED, at)
     if end is not None and text.word(end) in _SIGNS:
         return end
+    called = text.phrase_end(_CALLS, at)
+    if called is not None and text.word(called) in _SIGNS and _commands(text, called + 1):
+        return called
     then = text.phrase_end(_THEN, at)
     if then is not None and _commands(text, then):
         return then

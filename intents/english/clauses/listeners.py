@@ -22,6 +22,13 @@ _TO_SOMEBODY = lexicon.words(
     "went go gone going gave give given spoke talk talked brought sent told"
 )
 """What somebody does who tells of it: "I went to Leo" is not said to Leo."""
+_WISHES = lexicon.phrases(
+    "sorry,thanks,thank you,thank you very much,many thanks,a big thank you,well done,"
+    "congratulations,hi,hello,hey,bye,goodbye,good bye,bye bye,good morning,good day,"
+    "good afternoon,good evening,good night,welcome,happy birthday,merry christmas,"
+    "good luck,get well,get well soon,cheers,please"
+)
+"""What is said to somebody, and not of them."""
 _OF_THEM = lexicon.words("he she they it we i because since as cause so and")
 
 
@@ -95,6 +102,17 @@ def refuse_more(text: Text, at: int) -> None:
         raise Unclear("What shall I tell?")
     end = next((n for n in range(at + 1, len(text)) if text.word(n) in _MESSAGE_BEGINS), at + 2)
     raise NotUnderstood(f"I do not know who “{text.raw(at + 1, end)}” is")
+
+
+def refuse_unknown(text: Text, at: int, end: int) -> None:
+    """Say sorry *to granny*, thanks *to the postman*: what is wished to somebody is said to them.
+
+    Raises:
+        NotUnderstood: Nobody knows who that is.
+    """
+    to = text.phrase_end(_WISHES, at)
+    if to is not None and text.word(to) == "to" and to + 1 < end:
+        raise NotUnderstood(f"I do not know who “{text.raw(to + 1, end)}” is")
 
 
 def addressed_end(text: Text, at: int, end: int, scope: Scope) -> tuple[int, int] | None:

@@ -13,6 +13,7 @@ from intents.english.clauses.listeners import (
     listening_place,
     meant_listener,
     refuse_more,
+    refuse_unknown,
 )
 from intents.english.clauses.markers import marker_end
 from intents.english.clauses.messages import (
@@ -32,6 +33,7 @@ from intents.english.reading import Found
 from intents.english.trouble import Misfit, NotUnderstood, ReadingError, Unclear
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, QUOTE
+from intents.english.words.reported import as_said
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import Answer, Count, Find, Goal, Person, Say, Tell
@@ -91,8 +93,9 @@ def say(text: Text, at: int, scope: Scope) -> Found:
         return [Say(what="something", to=to)], end
     if here and to is None:
         to = Person(at=here)
-    what = text.tokens[at].raw if text.word(at) == QUOTE else text.raw(at, stop)
-    return [Say(what=what, to=to)], end
+    if to is None:
+        refuse_unknown(text, at, stop)
+    return [Say(what=_words_for(text, at, stop, to), to=to)], end
 
 
 def _addressed(text: Text, at: int, scope: Scope) -> tuple[Person | None, int]:
@@ -290,8 +293,24 @@ def _said_to(text: Text, at: int, to: Person, scope: Scope) -> Found:
     stop, here = _place_of_speech(text, at, end, scope)
     if here and to.at is None:
         to = replace(to, at=here)
-    what = text.tokens[at].raw if text.word(at) == QUOTE else text.raw(at, stop)
-    return [Say(what=what, to=to)], end
+    return [Say(what=_words_for(text, at, stop, to), to=to)], end
+
+
+def _words_for(text: Text, at: int, end: int, to: Person | None) -> str:
+    """What is to be said, as whoever is told is to hear it: word for word where it is quoted."""
+    if text.word(at) == QUOTE:
+        return text.tokens[at].raw
+    what = text.raw(at, end)
+    if to in (None, ME):
+        return what
+
+    def names(word: str) -> bool:
+        match = text.index.match([word], 0)
+        return match is not None and bool(match.of("person"))
+
+    before = (text.name_at(n) for n in range(at))
+    spoken_of = {name for match in before if match and (name := match.of("person"))}
+    return as_said(what, to.gender, names, others=bool(spoken_of - {to.name}))
 
 
 def answer(text: Text, at: int, scope: Scope) -> Found:

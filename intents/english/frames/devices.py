@@ -8,6 +8,7 @@ from intents.english.trouble import Misfit, NotUnderstood, Unclear, listing
 from intents.english.words.lexer import singular
 from intents.english.words.lexicon import words
 from intents.goals import Bring, Close, ForEach, Goal, Open, Place, Switch
+from intents.numbers import plural
 
 _OPENABLE = words(
     "door drawer fridge refrigerator freezer cabinet cupboard window hand gripper box bottle jar "
@@ -39,7 +40,9 @@ def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> 
         if phrase.said in ("door", "lid", "drawer") and isinstance(last, Place) and last.in_:
             names.append(last.in_)  # put the milk in the fridge and shut the door
             continue
-        if name and (phrase.exact or _is_only(phrase, head, generic)):
+        if phrase.count == "all" and act != "switch":
+            names += _every(phrase, head, act)
+        elif name and (phrase.exact or _is_only(phrase, head, generic)):
             names.append(name)
         elif head in generic:
             room = next((p.of.name("room") for p in phrase.places if p.of.name("room")), "")
@@ -51,6 +54,19 @@ def _what(said: Complement, scope: Scope, generic: frozenset[str], act: str) -> 
         else:
             raise NotUnderstood(f"I cannot {act} “{phrase.said}”")
     return names
+
+
+def _every(phrase: NounPhrase, head: str, act: str) -> list[str]:
+    """Every door: all that end with that, or are of that name.
+
+    Raises:
+        Unclear: None is known by name.
+    """
+    known = phrase.all_names("object", "place", "room")
+    every = [name for name in known if singular(name.split()[-1].lower()) == head]
+    if not every:
+        raise Unclear(f"Which {plural(head or phrase.said)} shall I {act}? I know none by name.")
+    return every
 
 
 def _spoken_of(phrase: NounPhrase, scope: Scope, generic: frozenset[str], act: str) -> str:

@@ -28,7 +28,7 @@ Source = Literal["own", "other", "alone"]
 also by itself, where the network has not been asked."""
 Kind = Literal["goals", "question", "refusal", "nothing"]
 _LEVELS = (0.02, 0.1, 0.25, 0.4, 0.55, 0.7, 0.8, 0.9, 0.95, 0.98, 0.995)
-_KINDS = (
+KINDS = (
     ("condition", limits.CONDITIONS), ("time", limits.TIMES), ("denial", limits.DENIALS),
     ("choice", limits.CHOICES), ("quantity", limits.QUANTITIES), ("measure", limits.MEASURES),
     ("spot", limits.SPOTS), ("quality", CARRYING),
@@ -220,7 +220,7 @@ def _of_goals(both: Both, side: Side) -> Iterator[str]:
 def _of_words(both: Both, side: Side, source: Source) -> Iterator[str]:
     words = set(_WORD.findall(both.text.lower().replace("’", "'")))
     plain = set(_WORD.findall(both.plain.lower()))
-    for kind, known in _KINDS:
+    for kind, known in KINDS:
         if words & known:
             yield f"has {kind}"
             if source == OTHER:

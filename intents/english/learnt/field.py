@@ -94,7 +94,7 @@ def unpacked(data: bytes) -> Field:
 
 Fields = Mapping[str, Field]
 """What was learnt, each field by its name."""
-NAMES = ("background", "acts", "roles", "trust", "choice")
+NAMES = ("background", "acts", "roles", "trust", "choice", "check")
 
 
 @cache

@@ -140,6 +140,35 @@ class Writing:
         scores -= scores.max()
         return scores - np.log(np.exp(scores).sum())
 
+    def finds(self, written: Sequence[int]) -> Array:
+        """How likely the network finds each of some words, numbered as in :meth:`after`.
+
+        All of them are weighed at once; nothing may have been written before.
+
+        Returns:
+            Logarithms of probabilities, and those of the likeliest word in each place; shape
+            (2, words).
+        """
+        net, known = self._net, len(self._net.words)
+        before = [BEGIN, *written[:-1]]
+        own = net.matrices["words.weight"]
+        x = np.where(
+            np.array([word < known for word in before])[:, None],
+            own.rows([min(word, known - 1) for word in before]),
+            self._pointed[[max(word - known, 0) for word in before]],
+        )
+        x = x + net.numbers["plain_places.weight"][: len(before)]
+        for n in self._layers:
+            x = self._layer(n, x)
+        x = net.even("write_out", x, _WRITER_EVEN)
+        wide = np.float32(np.sqrt(x.shape[1]))
+        writes = own.of(x) / wide * 4.0 + net.numbers["bias"]
+        points = (net.linear("points", x) @ self._states.T) / wide
+        scores = np.concatenate([writes, np.where(self._has, points, -1e4)], axis=1)
+        scores -= scores.max(axis=1, keepdims=True)
+        scores -= np.log(np.exp(scores).sum(axis=1, keepdims=True))
+        return np.stack([scores[np.arange(len(written)), list(written)], scores.max(axis=1)])
+
     def _layer(self, n: int, x: Array) -> Array:
         net, of = self._net, f"writers.{n}"
         y = net.even(f"{of}.norms.0", x, _WRITER_EVEN)
@@ -148,7 +177,7 @@ class Writing:
         )
         self._own[n].append((key, value))
         keys, values = (np.concatenate(part) for part in zip(*self._own[n], strict=True))
-        heads = _attended(query, keys, values, _WRITER_HEADS)
+        heads = _attended(query, keys, values, _WRITER_HEADS, ordered=len(x) > 1)
         x = x + net.linear(f"{of}.own.out", heads)
         y = net.even(f"{of}.norms.1", x, _WRITER_EVEN)
         key, value = self._cross[n]
@@ -158,14 +187,21 @@ class Writing:
         return x + net.linear(f"{of}.outer", _gelu(net.linear(f"{of}.inner", y)))
 
 
-def _attended(query: Array, key: Array, value: Array, heads: int) -> Array:
-    """Scaled dot-product attention of several heads [Vaswani et al. 2017]."""
+def _attended(
+    query: Array, key: Array, value: Array, heads: int, *, ordered: bool = False
+) -> Array:
+    """Scaled dot-product attention of several heads [Vaswani et al. 2017].
+
+    Where they are ordered, each state looks only at those up to its own place.
+    """
 
     def split(x: Array) -> Array:
         return x.reshape(len(x), heads, -1).transpose(1, 0, 2)
 
     q, k, v = split(query), split(key), split(value)
     scores = q @ k.transpose(0, 2, 1) / np.float32(np.sqrt(q.shape[-1]))
+    if ordered:
+        scores = np.where(np.tri(len(query), len(key), dtype=bool), scores, np.float32(-1e4))
     odds = np.exp(scores - scores.max(axis=-1, keepdims=True))
     odds /= odds.sum(axis=-1, keepdims=True)
     return (odds @ v).transpose(1, 0, 2).reshape(len(query), -1)

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from intents.english.paraphrase.network import BEGIN, END, Network, shipped
+from intents.english.paraphrase.pointing import pointing
 from intents.english.paraphrase.source import SORTS, Unit, units, words_of
 from intents.english.paraphrase.wordpieces import pieces
 from intents.english.words.names import NameIndex
@@ -79,9 +80,36 @@ class Heard:
         ids, sorts, self._heads = read_in(self.units, spelled, self._net.known, self._net.longest)
         self.is_whole = all(self._heads)
         self._read = self._net.read(ids, sorts)
+        self._said: Paraphrase | None = None
+
+    def finds(self, plain: str, index: NameIndex) -> list[tuple[float, float]] | None:
+        """How likely the network finds other plain words.
+
+        Args:
+            plain: The plain words, as :mod:`intents.plain_words` puts goals.
+            index: The names of the world.
+
+        Returns:
+            For each word, and for the end behind them, the logarithm of its probability and that
+            of the word that the network would have written there; None if one of them comes from
+            nowhere in the sentence, or they are too many.
+        """
+        net = self._net
+        told = pointing(plain, self.units, index, net.numbers_of)
+        if told is None or len(told) >= net.longest_plain:
+            return None
+        known = len(net.words)
+        written = [known + w if isinstance(w, int) else net.numbers_of[w] for w in told]
+        found = net.begin(self._read, self._heads).finds([*written, END])
+        return [(float(own), float(most)) for own, most in found.T]
 
     def paraphrase(self) -> Paraphrase:
         """What the network says instead of it; that it has to be asked if it is lost for words."""
+        if self._said is None:
+            self._said = self._paraphrase()
+        return self._said
+
+    def _paraphrase(self) -> Paraphrase:
         writing, known = self._net.begin(self._read, self._heads), len(self._net.words)
         told, sure, last = list[int](), 0.0, BEGIN
         while len(told) < self._net.longest_plain:

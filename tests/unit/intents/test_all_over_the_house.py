@@ -123,7 +123,7 @@ def test_what_somebody_is_to_find_out_is_no_condition_of_telling_them(verb: str)
     assert isinstance(outcome, Goals), outcome
     (goal,) = outcome.goals
     assert isinstance(goal, Say)
-    assert goal.what == f"to {said}"
+    assert goal.what == said
 
 
 def test_how_many_of_nothing_is_asked_back() -> None:

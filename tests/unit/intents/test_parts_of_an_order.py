@@ -4,8 +4,8 @@ import pytest
 
 from intents.outcomes import Goals, Question
 from intents.parser import parse
+from intents.plain_words import plainly
 from intents.vocabulary import Thing, Vocabulary
-from training.paraphrase.plain_words import plainly
 
 INN = Vocabulary(
     objects=(

@@ -3,14 +3,14 @@
 import pytest
 
 from intents.context import Context
+from intents.english.paraphrase.pointing import pointing
 from intents.english.paraphrase.source import units, words_of
 from intents.english.words.names import index_of
 from intents.goals import to_builtins
 from intents.outcomes import Goals
 from intents.parser import first_look
+from intents.plain_words import plainly
 from intents.vocabulary import Vocabulary
-from training.paraphrase.plain_words import plainly
-from training.paraphrase.pointing import pointing
 
 OBSERVATORY = Vocabulary.of(
     objects=["star chart", "eyepiece", "thermos", "red torch", "green torch", "notebook"],
