@@ -9,8 +9,10 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from intents.english.learnt.check import Said, Witness, check
-from intents.english.learnt.choice import Name, Side, alone
+from msgspec.structs import replace
+
+from intents.english.learnt.check import Said, Witness, check, is_unfamiliar
+from intents.english.learnt.choice import Name, alone
 from intents.english.learnt.field import LEARNT, Fields
 from intents.english.learnt.plainness import is_plainly_put
 from intents.english.learnt.sight import sight
@@ -20,7 +22,7 @@ from intents.english.trouble import Partly
 from intents.english.words import lexicon
 from intents.english.words.lexer import words_in
 from intents.english.words.names import NameIndex
-from intents.goals import Cancel, Pause, Stop, to_builtins
+from intents.goals import Cancel, Goal, GoTo, ObjectQuery, Pause, Stop, Tell, to_builtins
 from intents.outcomes import Goals
 from intents.plain_words import plainly
 from intents.sameness import same
@@ -123,6 +125,8 @@ def to_check(
     harmless = all(isinstance(goal, _HARMLESS) for goal in before.goals)
     if not isinstance(before.outcome, Goals) or harmless or not _is_weighable(text):
         return None
+    if is_unfamiliar(before.goals):
+        return None
     names, own = names_in(text, index), side_of(before, "whole", sight(text, index))
     by_itself = alone(text, names, own, fields)
     certain = _bounds(text, names).checked if certain is None else certain
@@ -133,8 +137,9 @@ def to_check(
         return None
     said = heard.paraphrase()
     other = None if said.text in (ASK, NOTHING) else read(said.text)
-    witness = _witness(said, other, own)
-    found = _finds(heard, own, index)
+    put = _told_there(own.goals)
+    witness = _witness(said, other, put)
+    found = _finds(heard, put, index)
     return Said(text, names, own.goals, own.told, by_itself, found, witness, said.likely)
 
 
@@ -145,8 +150,19 @@ def _is_weighable(text: str) -> bool:
     return _TAKEN_BACK.isdisjoint(words_in(text))
 
 
-def _finds(heard: Heard, own: Side, index: NameIndex) -> list[tuple[float, float]] | None:
-    plain = plainly(own.goals)
+def _told_there(goals: tuple[Goal, ...]) -> tuple[Goal, ...]:
+    """On the bar, which is largest: to go there and tell that is to tell it of what is there."""
+    match goals:
+        case (GoTo(place=str(place)), Tell(object=ObjectQuery(at=None) as thing) as tell, *rest):
+            return (replace(tell, object=replace(thing, at=place)), *rest)
+        case _:
+            return goals
+
+
+def _finds(
+    heard: Heard, goals: tuple[Goal, ...], index: NameIndex
+) -> list[tuple[float, float]] | None:
+    plain = plainly(goals)
     found = heard.finds(plain, index)
     if found is None:
         return None
@@ -167,12 +183,12 @@ def _is_taught(plain: str, index: NameIndex) -> Iterator[bool]:
     yield True
 
 
-def _witness(said: Paraphrase, other: Attempt | None, own: Side) -> Witness:
+def _witness(said: Paraphrase, other: Attempt | None, goals: tuple[Goal, ...]) -> Witness:
     if other is None:
         return "ask" if said.text == ASK else "nothing"
     if not isinstance(other.outcome, Goals):
         return "unread"
-    alike = same(to_builtins(other.outcome.goals), to_builtins(own.goals))
+    alike = same(to_builtins(other.outcome.goals), to_builtins(goals))
     return "agree" if alike else "differ"
 
 
