@@ -5,11 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Generic, TypeVar
 
+import numpy as np
+
 from robot.closing import Closing
 from robot.drivers.motors.claim import Claim
 from robot.errors import DriverError
+from robot.se3 import Array
 
 L = TypeVar("L", bound=Closing)
+
+FIRST_PERIODS = 5
+"""For so many at most it is waited for motors that were just enabled to say where they stand."""
 
 
 class Life(Generic[L]):
@@ -95,6 +101,26 @@ class Life(Generic[L]):
             self._claim.release()
             lines.close()
             left()
+
+
+def unheard(
+    names: Iterable[str], read: Callable[[], object], heard_s: Callable[[], Array]
+) -> list[str]:
+    """Read until every motor has said where it stands, before any torque, and not for ever.
+
+    Args:
+        names: of the joints.
+        read: a period.
+        heard_s: when each told where it is; -inf: never, shape (n,).
+
+    Returns:
+        Those that did not.
+    """
+    for _ in range(FIRST_PERIODS):
+        if np.isfinite(heard_s()).all():
+            return []
+        read()
+    return [name for name, when_s in zip(names, heard_s(), strict=True) if not np.isfinite(when_s)]
 
 
 def not_let_go(joints: Iterable[str]) -> DriverError:

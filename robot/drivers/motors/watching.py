@@ -16,6 +16,8 @@ from robot.se3 import Array
 
 SILENT_PERIODS = 3
 SILENT_S = 0.020
+UNKNOWN = 1000
+"""Periods without a reply, of one that never came."""
 
 
 SILENT = Kind(
@@ -82,6 +84,22 @@ class JointAlarms:
     def forget(self) -> None:
         """Begin to look anew."""
         self.speeds = SpeedCheck(len(self.names))
+
+    def feel(
+        self, now_s: float, q: Array, qd: Array, misses: npt.NDArray[np.intp], heard_s: Array
+    ) -> None:
+        """Compare speeds with positions, of joints that have said where they are.
+
+        Before its first reply a joint stands nowhere: from there to where it is nothing moved.
+
+        Args:
+            now_s: when.
+            q: angles of the joints, shape (n,).
+            qd: their speeds, shape (n,).
+            misses: periods in a row without a reply, shape (n,).
+            heard_s: when each told where it is; -inf: never, shape (n,).
+        """
+        self.speeds.feel(now_s, q, qd, np.where(np.isfinite(heard_s), misses, UNKNOWN))
 
     def are_due(
         self,

@@ -17,7 +17,7 @@ from robot.drivers.motors.can.interview import (
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.drivers.motors.can.ports import Heard, Ports
 from robot.drivers.motors.can.replies import feedback_of, senders
-from robot.drivers.motors.can.values import ENABLED, Ranges, Target
+from robot.drivers.motors.can.values import ENABLED, Feedback, Ranges, Target
 from robot.errors import DriverError
 
 DAMPING_NM_S = 2.0
@@ -27,8 +27,11 @@ ENABLE_TRIES = 13
 LIMP = Target(0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-def arm(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> None:
+def arm(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> dict[str, Feedback]:
     """Set every watchdog, then enable every motor, with zero torque.
+
+    Returns:
+        What each told as it was enabled: where it stands, before any torque.
 
     Raises:
         DriverError: naming each motor that did not do so, and why; then all are disabled again.
@@ -46,15 +49,16 @@ def arm(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> N
         if one.family.clear_fault is not None
     ]
     exchange(ports, clock, clears, lambda _: None)
-    status = _enable(ports, clock, joints, ranges)
+    told = _enable(ports, clock, joints, ranges)
     refused = [
-        f"{name} {_told(joints.joints[name], status.get(name))}"
+        f"{name} {_told(joints.joints[name], told.get(name))}"
         for name in joints.joints
-        if status.get(name) != ENABLED
+        if not _is_on(told.get(name))
     ]
     if refused:
         disable(ports, clock, joints, ranges)
         raise DriverError(f"all motors are disabled again: {', '.join(refused)}")
+    return told
 
 
 def leave_damping(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> None:
@@ -73,7 +77,7 @@ def disable(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) 
     for wait_s in WAITS_S:
         frames = [(one.bus, one.family.disable(one.id)) for one in still.values()]
         told = _told_by(ports, clock, joints, ranges, frames, wait_s=wait_s)
-        still = {name: one for name, one in still.items() if told.get(name, ENABLED) == ENABLED}
+        still = {name: one for name, one in still.items() if name not in told or _is_on(told[name])}
         if not still:
             break
     return list(still)
@@ -130,27 +134,29 @@ def _units(joint: JointMotor, timeout_s: float) -> int:
     return 0 if asking is None else round(timeout_s / asking.settings.watchdog_unit_s)
 
 
-def _enable(ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]) -> dict[str, int]:
-    """The status of each after it was told to: of those that answered.
+def _enable(
+    ports: Ports, clock: Clock, joints: JointMap, ranges: list[Ranges]
+) -> dict[str, Feedback]:
+    """What each tells after it was told to: of those that answered.
 
     Some take a while to start. Who is on meanwhile is told to give no torque, so that its watchdog
     does not end that.
     """
-    status: dict[str, int] = {}
+    told: dict[str, Feedback] = {}
     for _ in range(ENABLE_TRIES):
-        if all(status.get(name) == ENABLED for name in joints.joints):
+        if all(_is_on(told.get(name)) for name in joints.joints):
             break
         frames = [
             (
                 one.bus,
                 one.family.command(one.id, most, LIMP)
-                if status.get(name) == ENABLED
+                if _is_on(told.get(name))
                 else one.family.enable(one.id),
             )
             for (name, one), most in zip(joints.joints.items(), ranges, strict=True)
         ]
-        status |= _told_by(ports, clock, joints, ranges, frames, wait_s=ANSWERS_WITHIN_S)
-    return status
+        told |= _told_by(ports, clock, joints, ranges, frames, wait_s=ANSWERS_WITHIN_S)
+    return told
 
 
 def _told_by(
@@ -161,24 +167,28 @@ def _told_by(
     frames: list[tuple[str, Frame]],
     *,
     wait_s: float,
-) -> dict[str, int]:
-    """Send frames, and hear for a while which status each joint's motor tells."""
+) -> dict[str, Feedback]:
+    """Send frames, and hear for a while what each joint's motor tells."""
     most = dict(zip(joints.joints, ranges, strict=True))
-    sender, status = senders(joints.joints), dict[str, int]()
+    sender, said = senders(joints.joints), dict[str, Feedback]()
 
     def take(heard: Heard) -> None:
         if heard.frame is None or not (name := sender(heard)):
             return
         told = feedback_of(joints.joints[name], heard.frame, most[name])
         if told is not None:
-            status[name] = told.status
+            said[name] = told
 
     exchange(ports, clock, frames, take, wait_s=wait_s)
-    return status
+    return said
 
 
-def _told(joint: JointMotor, code: int | None) -> str:
-    if code is None:
+def _is_on(told: Feedback | None) -> bool:
+    return told is not None and told.status == ENABLED
+
+
+def _told(joint: JointMotor, told: Feedback | None) -> str:
+    if told is None:
         return "does not answer (power, cable, id)"
-    status = joint.family.status(code)
+    status = joint.family.status(told.status)
     return f"is {status.code.replace('_', ' ')}" + (f" ({status.cure})" if status.cure else "")

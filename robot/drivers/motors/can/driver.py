@@ -364,7 +364,8 @@ class CanMotors(Closing):
         if not self._is_known:
             self._interview(ports)
             self._understand()
-        arming.arm(ports, self._clock, self.joints, self.ranges)
+        told = arming.arm(ports, self._clock, self.joints, self.ranges)
+        self.reception.found([told[name] for name in self.joints.joints], self._clock.now_s())
 
     def _send(self, ports: Ports, command: MotorCommand) -> MotorCommand:
         gearing = self._gearing

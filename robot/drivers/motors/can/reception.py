@@ -24,7 +24,7 @@ from robot.drivers.motors.can.packed import (
     wide,
 )
 from robot.drivers.motors.can.replies import is_about_register, may_be_about_register
-from robot.drivers.motors.can.values import DISABLED, NOBODY, Ranges
+from robot.drivers.motors.can.values import DISABLED, NOBODY, Feedback, Ranges
 from robot.drivers.motors.gearing import Gearing
 from robot.drivers.motors.jumps import Jumps
 from robot.se3 import Array
@@ -80,6 +80,15 @@ class Reception:
     def forget_where(self) -> None:
         """Believe whatever position comes next: a motor's zero was moved."""
         self.heard_s[:] = -np.inf
+        self.misses[:] = 0
+
+    def found(self, told: Sequence[Feedback], now_s: float) -> None:
+        """What every motor told as it was enabled, outside of a period: it is there."""
+        self._motion[:] = np.array([(one.q_rad, one.qd_rad_s, one.tau_nm) for one in told]).T
+        self.temperature_c[:] = [one.winding_c for one in told]
+        self.status[:] = [one.status for one in told]
+        self.heard_s[:] = now_s
+        self.misses[:] = 0
 
     def take(self, came: Sequence[tuple[str, bytes]], now_s: float) -> Sequence[str]:
         """Packed frames that came in, by bus; returns the buses that went off.
@@ -167,7 +176,8 @@ class Reception:
             silent = replies == 0
             self.misses = np.where(silent, self.misses + 1, 0)
             self.lost += int(np.count_nonzero(silent))
-            self.q += np.where(self.misses == 1, self.qd * self._period_s, 0.0)
+            bridged = (self.misses == 1) & np.isfinite(self.heard_s)
+            self.q += np.where(bridged, self.qd * self._period_s, 0.0)
             self.doubles = np.where(replies > 1, self.doubles + 1, 0)
         self._replies = np.zeros_like(replies)
 

@@ -94,7 +94,7 @@ class Watch:
             queues: of the buses.
             is_armed: whether the motors were enabled from here.
         """
-        self.joints.speeds.feel(now_s, q, qd, heard.misses)
+        self.joints.feel(now_s, q, qd, heard.misses, heard.heard_s)
         if self.joints.are_due(
             misses=heard.misses,
             jumps=heard.jumps,

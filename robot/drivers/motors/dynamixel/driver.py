@@ -32,7 +32,7 @@ from robot.drivers.motors.dynamixel.talking import Talk
 from robot.drivers.motors.findings import refuse_grave
 from robot.drivers.motors.gearing import Gearing
 from robot.drivers.motors.holding import Holding
-from robot.drivers.motors.life import Life, not_let_go
+from robot.drivers.motors.life import Life, not_let_go, unheard
 from robot.drivers.motors.limiter import Limiter, Measured
 from robot.drivers.motors.periods import Periods
 from robot.drivers.motors.plant_behind import PlantClock
@@ -325,11 +325,12 @@ class DynamixelMotors(Closing):
         self._forget_asking()
         self._spoke_s = self._clock.now_s()
         self._periods.begin()
-        while not np.isfinite(self.reception.heard_s).all():  # where they are, before any torque
-            before = self.reception.heard_s.copy()
-            self._read(waits=True)
-            if (before == self.reception.heard_s).all():
-                break
+        if silent := unheard(
+            self.joints.joints, lambda: self._read(waits=True), lambda: self.reception.heard_s
+        ):
+            self._is_armed = False
+            arming.switch_off(talk)
+            raise DriverError(f"all servos are switched off again: no word of {', '.join(silent)}")
         self._lost_before, self._commanded = self.reception.lost, 0
 
     def _forget_asking(self) -> None:

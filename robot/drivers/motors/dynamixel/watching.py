@@ -85,7 +85,7 @@ class Watch:
             receivers: of the ports, which count what was spoilt.
         """
         if not heard.misses.any() and np.isfinite(heard.heard_s).all():  # nothing is bridged
-            self.joints.speeds.feel(now_s, q, qd, heard.misses)
+            self.joints.feel(now_s, q, qd, heard.misses, heard.heard_s)
         if self.joints.are_due(
             misses=heard.misses,
             jumps=heard.jumps,

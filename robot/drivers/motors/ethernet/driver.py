@@ -32,7 +32,7 @@ from robot.drivers.motors.ethernet.reception import FASTEST_RAD_S, Reception
 from robot.drivers.motors.ethernet.talking import Question, Talk
 from robot.drivers.motors.findings import refuse_grave
 from robot.drivers.motors.holding import Holding
-from robot.drivers.motors.life import Life, not_let_go
+from robot.drivers.motors.life import Life, not_let_go, unheard
 from robot.drivers.motors.limiter import Limiter, Measured
 from robot.drivers.motors.periods import Periods
 from robot.drivers.motors.plant_behind import PlantClock
@@ -316,7 +316,8 @@ class EthernetMotors(Closing):
     def _arm(self) -> None:
         """Enable all joints. Raises DriverError if one is not what the map says, or does not."""
         talk = self._opened_talk()
-        if self._is_left_enabled and not arming.take_over(talk):
+        was_left = self._is_left_enabled and not arming.take_over(talk)
+        if was_left:
             self._tell("the motors were left enabled: they are commanded as they are")
         else:
             refuse_grave(verdicts(self.joints, interview(talk)), "motors")
@@ -326,11 +327,11 @@ class EthernetMotors(Closing):
         for board in self.reception.boards.values():
             board.flags = 0
         self._periods.begin()
-        while not np.isfinite(self.reception.heard_s).all():  # where they are, before any torque
-            before = self.reception.heard_s.copy()
-            self.read()
-            if (before == self.reception.heard_s).all():
-                break
+        if silent := unheard(self.joints.joints, self.read, lambda: self.reception.heard_s):
+            self._is_armed = False
+            if not was_left:  # else boards brake, as they do without a word
+                arming.disable(talk)
+            raise DriverError(f"nothing is commanded: no word of {', '.join(silent)}")
         self._lost_before, self._commanded = self.reception.lost, 0
         self._refused_before = self.reception.refused
 

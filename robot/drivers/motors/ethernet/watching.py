@@ -17,8 +17,6 @@ from robot.se3 import Array
 
 FULL_S = 0.010
 IMPOSSIBLE_PERIODS = 3
-UNKNOWN = 1000
-"""Periods without an answer, of one that never came."""
 NOISY_S, NOISY_DATAGRAMS = 1.0, 5
 """So many refused datagrams of a board in so long."""
 
@@ -136,9 +134,7 @@ class Watch:
             strangers: datagrams of each board's socket that came from somewhere else.
             is_armed: whether the joints were enabled from here.
         """
-        # Before its first answer a joint stands nowhere: from there to where it is nothing moved.
-        unknown = np.where(np.isfinite(heard.heard_s), heard.misses, UNKNOWN)
-        self.joints.speeds.feel(now_s, q, qd, unknown)
+        self.joints.feel(now_s, q, qd, heard.misses, heard.heard_s)
         is_odd = bool(heard.faults.any()) or bool((heard.state != State.ENABLED).any())
         if self.joints.are_due(
             misses=heard.misses, jumps=heard.jumps, temperature_c=heard.temperature_c, is_odd=is_odd
