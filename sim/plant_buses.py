@@ -149,7 +149,12 @@ class PlantBuses(Closing):
             name: joint for one in found for name, joint in one.joints.items()
         }
         order = [name for name in plant.robot.motor_names if name in by_name]
-        linkages = () if boards is None else boards.linkages.values()
+        linkages = [
+            linkage
+            for moved in (joints, boards)
+            if moved is not None
+            for linkage in moved.linkages.values()
+        ]
         self._body = JointShafts({name: by_name[name] for name in order}, linkages)
         self._places = {name: index for index, name in enumerate(order)}
         self.period_ms = round(1000 * min(one.period_s for one in found))

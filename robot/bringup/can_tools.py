@@ -9,7 +9,7 @@ from typing import NamedTuple
 import msgspec
 
 from robot.bringup.motor_family import MapDriver
-from robot.bringup.motor_reports import Reading, Seen
+from robot.bringup.motor_reports import Reading, Seen, unless_nan
 from robot.clock import Clock
 from robot.drivers.motors.can.families import FAMILIES, Asking, Family
 from robot.drivers.motors.can.interview import (
@@ -21,9 +21,10 @@ from robot.drivers.motors.can.interview import (
 )
 from robot.drivers.motors.can.joint_map import SOCKETCAN, Bus, JointMap, JointMotor
 from robot.drivers.motors.can.ports import Heard, Ports, PythonCan, check_buses
-from robot.drivers.motors.can.verdicts import verdicts
+from robot.drivers.motors.can.verdicts import told_by, verdicts
 from robot.drivers.motors.findings import Finding
 from robot.drivers.motors.motor_map import Motor
+from robot.drivers.motors.transmission import Motion, joints_of
 
 AT_ONCE = 32
 """Identifiers asked together: their replies take a bus 4 ms."""
@@ -179,10 +180,11 @@ def readings(ports: Ports, clock: Clock, joints: JointMap) -> list[Reading]:
     asked = {name: one for name, one in joints.joints.items() if answers[name].registers}
     for settings, some in by_settings(asked):
         read_registers(ports, clock, some, answers, settings.supply)
-    return [_reading(name, joints, answers[name]) for name in joints.joints]
+    found = joints_of(joints, told_by(joints, answers))
+    return [_reading(name, joints, answers[name], found[name]) for name in joints.joints]
 
 
-def _reading(name: str, joints: JointMap, answer: Answers) -> Reading:
+def _reading(name: str, joints: JointMap, answer: Answers, found: Motion) -> Reading:
     one, told = joints.joints[name], answer.feedback
     asking = one.family.asking
     if told is None:
@@ -194,9 +196,9 @@ def _reading(name: str, joints: JointMap, answer: Answers) -> Reading:
         id=one.id,
         model=one.model,
         status=one.family.status(told.status).code,
-        q_rad=one.joint_rad(told.q_rad),
-        qd_rad_s=one.sign * told.qd_rad_s / one.gear,
-        tau_nm=one.sign * told.tau_nm * one.gear,
+        q_rad=unless_nan(found.q_rad),
+        qd_rad_s=unless_nan(found.qd_rad_s),
+        tau_nm=unless_nan(found.tau_nm),
         winding_c=told.winding_c,
         driver_c=told.driver_c,
         supply_v=None if asking is None else answer.registers.get(asking.settings.supply),

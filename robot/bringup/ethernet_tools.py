@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
 import msgspec
 
 from robot.bringup.motor_family import MapDriver
-from robot.bringup.motor_reports import Reading, Seen
+from robot.bringup.motor_reports import Reading, Seen, unless_nan
 from robot.clock import Clock
 from robot.drivers.motors.ethernet import arming, datagrams
 from robot.drivers.motors.ethernet.datagrams import Kind
@@ -18,6 +17,7 @@ from robot.drivers.motors.ethernet.ports import Ports, UdpPorts, check_boards
 from robot.drivers.motors.ethernet.talking import Question, Talk
 from robot.drivers.motors.findings import Finding
 from robot.drivers.motors.motor_map import Motor
+from robot.drivers.motors.transmission import Motion
 
 MOST_RAD = 1000.0
 """Of a motor by its own angles: its numbers have no end, a person's turning has."""
@@ -74,22 +74,19 @@ def readings(ports: Ports, clock: Clock, joints: DriveMap) -> list[Reading]:
     return [_reading(name, joints, answers[name], found[name]) for name in joints.joints]
 
 
-def _reading(
-    name: str, joints: DriveMap, answer: Answers, found: tuple[float, float, float]
-) -> Reading:
+def _reading(name: str, joints: DriveMap, answer: Answers, found: Motion) -> Reading:
     one, drive, told = joints.joints[name], answer.drive, answer.told
     if drive is None or told is None:
         return Reading(joint=name, bus=one.board, id=one.id, model=one.model, status="silent")
-    q_rad, qd_rad_s, tau_nm = (None if math.isnan(value) else value for value in found)
     return Reading(
         joint=name,
         bus=one.board,
         id=one.id,
         model=one.model,
         status=status(drive.state, drive.faults),
-        q_rad=q_rad,
-        qd_rad_s=qd_rad_s,
-        tau_nm=tau_nm,
+        q_rad=unless_nan(found.q_rad),
+        qd_rad_s=unless_nan(found.qd_rad_s),
+        tau_nm=unless_nan(found.tau_nm),
         winding_c=drive.celsius,
         driver_c=told.celsius,
         supply_v=told.volts,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TypeAlias
 
@@ -29,6 +30,11 @@ class Seen(msgspec.Struct, frozen=True, kw_only=True):
     mode: int | None
     version: int | None
     ranges: tuple[float, float, float] | None
+
+
+def unless_nan(value: float) -> float | None:
+    """A value as a report has it: None for NaN."""
+    return None if math.isnan(value) else value
 
 
 class Reading(msgspec.Struct, frozen=True, kw_only=True):

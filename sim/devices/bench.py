@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import cast
 
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
+from robot.drivers.motors.linkage import middle
 from robot.errors import ConfigError
 from sim.devices import can_motors
 from sim.devices.can_motor import FLAWS, CanMotor, Flaw
@@ -77,19 +78,23 @@ def build(
     motors: dict[str, CanMotor] = {}
     others: list[CanMotor] = []
     swing_rad_s = 0.0 if is_still else SWING_RAD_S
+    at = middle(wanted.linkages, wanted.joints)
     for name, joint in wanted.joints.items():
         flaw = flaws.get(name)
-        motors[name] = _motor(joint, wires[joint.bus], swing_rad_s, is_worn=flaw == WORN)
+        motors[name] = _motor(joint, at[name], wires[joint.bus], swing_rad_s, is_worn=flaw == WORN)
         if flaw is not None and flaw != WORN:
             motors[name].suffer(cast("Flaw", flaw))
             if flaw == "twin":
-                twin = _motor(joint, wires[joint.bus], swing_rad_s, ahead_rad=0.1, later_s=LATER_S)
+                twin = _motor(
+                    joint, at[name], wires[joint.bus], swing_rad_s, ahead_rad=0.1, later_s=LATER_S
+                )
                 others.append(twin)
     return Bench(wires, motors, tuple(others))
 
 
 def _motor(
     joint: JointMotor,
+    at_rad: float,
     wire: Wire,
     swing_rad_s: float,
     *,
@@ -97,7 +102,7 @@ def _motor(
     later_s: float = 0.0,
     is_worn: bool = False,
 ) -> CanMotor:
-    middle_rad = joint.motor_rad(0.5 * (joint.lower_rad + joint.upper_rad))
+    middle_rad = joint.motor_rad(at_rad)
     if is_worn:
         shaft = WornShaft(
             q_rad=middle_rad, inertia_kg_m2=0.02, worn_nm=0.2, viscous_nm_s=0.1, play_rad=0.004,

@@ -6,12 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Self, cast
 
-import numpy as np
-
 from robot.clock import SimulatedClock
 from robot.closing import Closing
 from robot.drivers.motors.ethernet.joint_map import DriveMap, JointDrive
-from robot.drivers.motors.linkage import Needed, needed
+from robot.drivers.motors.linkage import Needed, middle, needed
 from robot.errors import ConfigError, DriverError
 from sim.devices.ethernet_board import FLAWS, OVER_CURRENT, Board, Drive, Flaw, Kind
 from sim.devices.ethernet_cable import Cable
@@ -88,7 +86,7 @@ def build(
     if problems := unknown(flaws, joints=wanted.joints, known=FLAWS):
         raise ConfigError(problems)
     shafts: dict[str, FreeShaft] = {}
-    for name, at_rad in _middle(wanted).items():
+    for name, at_rad in middle(wanted.linkages, wanted.joints).items():
         shafts[name] = FreeShaft(q_rad=wanted.joints[name].motor_rad(at_rad), spring_nm_rad=0.3)
         shafts[name].qd_rad_s = 0.0 if is_still else SWING_RAD_S
     made = cables_of(wanted, shafts, now_s)
@@ -96,16 +94,6 @@ def build(
         if not made.cables[wanted.joints[name].board].suffer(cast("Flaw", flaw)):
             suffer(made.drives[name], cast("Flaw", flaw))
     return made
-
-
-def _middle(wanted: DriveMap) -> dict[str, float]:
-    """Where joints, or the cranks of their linkages, stand in the middle of their ranges."""
-    at = {name: 0.5 * (one.lower_rad + one.upper_rad) for name, one in wanted.joints.items()}
-    for linkage in wanted.linkages.values():
-        if all(name in at for name in linkage.joints):
-            cranks, _ = linkage.at(np.array([at[name] for name in linkage.joints]))
-            at |= dict(zip(linkage.joints, cranks.tolist(), strict=True))
-    return at
 
 
 def suffer(drive: Drive, flaw: Flaw) -> None:

@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from itertools import product
-from typing import Annotated, NamedTuple, TypeAlias
+from typing import Annotated, NamedTuple, TypeAlias, TypeVar
 
 import msgspec
 import numpy as np
@@ -197,19 +197,24 @@ def wrong(
 
 def _unreached(linkage: Linkage, joints: Mapping[str, Mounted]) -> str:
     """Where in the joints' range it ends or locks; "" if nowhere."""
+    for angles in _looks(linkage, joints):
+        said = ", ".join(f"{angle:.2f}" for angle in angles)
+        try:
+            if determinant(linkage.at(angles)[1]) < LEAST_DETERMINANT:
+                return f"at {said} rad its motors can hardly move its joints apart"
+        except ValueError:
+            return f"at {said} rad a rod does not reach"
+    return ""
+
+
+def _looks(linkage: Linkage, joints: Mapping[str, Mounted]) -> Iterator[Array]:
+    """Angles of its joints all over their ranges; of more than three joints at the ends."""
     ranges = [
         np.linspace(joints[name].lower_rad, joints[name].upper_rad, LOOKS)
         for name in linkage.joints
     ]
     few = ranges if len(ranges) <= 3 else [one[[0, -1]] for one in ranges]
-    for angles in product(*few):
-        said = ", ".join(f"{angle:.2f}" for angle in angles)
-        try:
-            if determinant(linkage.at(np.array(angles))[1]) < LEAST_DETERMINANT:
-                return f"at {said} rad its motors can hardly move its joints apart"
-        except ValueError:
-            return f"at {said} rad a rod does not reach"
-    return ""
+    return (np.array(angles) for angles in product(*few))
 
 
 class Needed(NamedTuple):
@@ -230,6 +235,41 @@ def needed(linkages: Mapping[str, Linkage], joints: Mapping[str, Mounted]) -> di
             for name, torque, speed in zip(linkage.joints, torques, speeds, strict=True):
                 found[name] = Needed(float(torque), float(speed))
     return found
+
+
+M = TypeVar("M", bound=Mounted)
+
+
+def at_cranks(linkages: Mapping[str, Linkage], joints: Mapping[str, M]) -> dict[str, M]:
+    """Every joint as its motor has it: of one in a linkage range, torque and speed of its crank.
+
+    Linkages of which a joint is not among these are left out.
+    """
+    found = {
+        name: msgspec.structs.replace(
+            joints[name], torque_limit_nm=most.torque_nm, velocity_limit_rad_s=most.velocity_rad_s
+        )
+        for name, most in needed(linkages, joints).items()
+    }
+    for linkage in linkages.values():
+        if not all(name in joints for name in linkage.joints):
+            continue
+        stand = np.array([linkage.at(angles)[0] for angles in _looks(linkage, joints)])
+        for name, low, high in zip(linkage.joints, stand.min(0), stand.max(0), strict=True):
+            found[name] = msgspec.structs.replace(
+                found[name], lower_rad=float(low), upper_rad=float(high)
+            )
+    return found
+
+
+def middle(linkages: Mapping[str, Linkage], joints: Mapping[str, Mounted]) -> dict[str, float]:
+    """Where joints, or the cranks of their linkages, stand in the middle of the joints' ranges."""
+    at = {name: 0.5 * (one.lower_rad + one.upper_rad) for name, one in joints.items()}
+    for linkage in linkages.values():
+        if all(name in at for name in linkage.joints):
+            cranks, _ = linkage.at(np.array([at[name] for name in linkage.joints]))
+            at |= dict(zip(linkage.joints, cranks.tolist(), strict=True))
+    return at
 
 
 def _needs(linkage: Linkage, joints: Mapping[str, Mounted]) -> tuple[Array, Array]:

@@ -8,6 +8,7 @@ from typing import TypeAlias, TypeVar
 
 import msgspec
 
+from robot.drivers.motors.linkage import Linkage
 from robot.drivers.motors.mounting import Mounted, beyond, unlike
 from robot.errors import ConfigError
 from robot.files import config, yaml_nodes
@@ -68,6 +69,21 @@ class MotorMap(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     def load(self, line: str) -> float:
         """The share of its time that a bus or port is busy."""
         raise NotImplementedError
+
+
+class LinkedMap(MotorMap, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A map some of whose joints may be moved by several motors together (`MotorMap`).
+
+    Attributes:
+        linkages: by name: joints that their motors move together.
+    """
+
+    linkages: dict[str, Linkage] = msgspec.field(default_factory=dict[str, Linkage])
+
+    @property
+    def linked(self) -> Mapping[str, str]:
+        """The linkage of each joint that is in one."""
+        return {one: name for name, found in self.linkages.items() for one in found.joints}
 
 
 M = TypeVar("M", bound=MotorMap)
@@ -152,6 +168,12 @@ def hasty(found: MotorMap) -> Iterator[Wrong]:
         yield "$.watchdog_s", text, cure
 
 
+def upside_down(where: str, joint: Mounted) -> Iterator[Wrong]:
+    """Limits of a joint that are no range."""
+    if joint.lower_rad >= joint.upper_rad:
+        yield f"{where}.lower_rad", "lower_rad is not below upper_rad", "exchange them"
+
+
 def unmet(
     where: str,
     joint: Motor,
@@ -172,7 +194,7 @@ def unmet(
         torque_nm: the most that it gives.
     """
     if joint.lower_rad >= joint.upper_rad:
-        yield f"{where}.lower_rad", "lower_rad is not below upper_rad", "exchange them"
+        yield from upside_down(where, joint)
         return
     for key, angle in (("lower_rad", joint.lower_rad), ("upper_rad", joint.upper_rad)):
         turned = joint.motor_rad(angle)

@@ -7,6 +7,7 @@ Of a joint in a linkage, sign, gear and offset are those of its motor at its cra
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple, Protocol
 
@@ -16,7 +17,7 @@ import numpy.typing as npt
 from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.gearing import Gearing
 from robot.drivers.motors.linkage import Linkage, Solved, solved
-from robot.drivers.motors.mounting import MountedJoints
+from robot.drivers.motors.mounting import Misplaced, Mounted, MountedJoints, misplaced
 from robot.se3 import Array
 
 
@@ -27,6 +28,14 @@ class LinkedJoints(MountedJoints, Protocol):
     def linkages(self) -> Mapping[str, Linkage]:
         """By name."""
         ...
+
+
+class Motion(NamedTuple):
+    """What one motor says of itself, or one joint: rad, rad/s, N m."""
+
+    q_rad: float
+    qd_rad_s: float
+    tau_nm: float
 
 
 class AtMotors(NamedTuple):
@@ -163,3 +172,45 @@ class Transmission:
         alone = stiffness * (goals - cranks) + damping * (paces - speeds)
         q_des[at], qd_des[at], kp[at], kd[at] = goals, paces, stiffness, damping
         tau[at] = share * wanted - alone
+
+
+def joints_of(joints: LinkedJoints, told: Mapping[str, Motion | None]) -> dict[str, Motion]:
+    """Every joint of a map by what its motors say, asked once.
+
+    Args:
+        joints: the map.
+        told: by its motors, of each joint; None: nothing.
+
+    Returns:
+        NaN where a motor did not tell that a joint takes, or where its linkage does not fit.
+    """
+    nothing = Motion(math.nan, math.nan, math.nan)
+    q, qd, tau = np.array([told[name] or nothing for name in joints.joints]).T
+    transmission = Transmission(joints)
+    rows = np.array(transmission.at_joints(q, qd, tau))
+    for linkage, unsolved in transmission.unsolved:
+        if unsolved:
+            names = joints.linkages[linkage].joints
+            rows[:, [name in names for name in joints.joints]] = math.nan
+    return {name: Motion(*row) for name, row in zip(joints.joints, rows.T.tolist(), strict=True)}
+
+
+def placed(joints: LinkedJoints, told: Mapping[str, Motion | None]) -> dict[str, float | None]:
+    """Where joints stand, as `joints_of`; None where nobody can tell without all of a linkage."""
+    angles: dict[str, float | None] = {
+        name: one.q_rad for name, one in joints_of(joints, told).items()
+    }
+    for linkage in joints.linkages.values():
+        if any(name in told and told[name] is None for name in linkage.joints):
+            angles |= dict.fromkeys(linkage.joints, None)
+    return angles
+
+
+def where_wrong(joint: Mounted, q_rad: float | None) -> Misplaced | None:
+    """What is likely wrong with a joint that stands there (`placed`); None: nothing."""
+    if q_rad is None:
+        return None
+    if math.isnan(q_rad):
+        text = "its linkage does not fit: its motors stand where its joints cannot be"
+        return Misplaced("linkage", text, "look at signs, offsets and rods in the map")
+    return misplaced(joint, q_rad)

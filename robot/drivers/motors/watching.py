@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +16,7 @@ from robot.se3 import Array
 
 SILENT_PERIODS = 3
 SILENT_S = 0.020
+IMPOSSIBLE_PERIODS = 3
 UNKNOWN = 1000
 """Periods without a reply, of one that never came."""
 
@@ -60,6 +61,14 @@ UNPLUGGED = Kind(
     "1 period",
     is_latched=True,
 )
+IMPOSSIBLE = Kind(
+    "linkage",
+    Level.SIT,
+    f"cranks of a linkage stood where its joints cannot be, {IMPOSSIBLE_PERIODS} periods in a row",
+    f"{IMPOSSIBLE_PERIODS} periods",
+    is_latched=True,
+)
+"""Of families whose motors may move joints together."""
 KINDS = (SILENT, DEAD, WARM, WRONG_SPEED, JUMPED, UNPLUGGED)
 """What is watched for in every family."""
 
@@ -162,6 +171,14 @@ class JointAlarms:
         if celsius > hot_c - WARM_K:
             text = f"{celsius:.0f} °C of {hot_c:g}: less torque"
             yield WARM.alarm(self.names[index], text, "let it rest")
+
+    def linkages(self, unsolved: Iterable[tuple[str, int]]) -> None:
+        """Linkages, and for how many periods in a row cranks stood where no joints can be."""
+        for name, periods in unsolved:
+            if periods >= IMPOSSIBLE_PERIODS:
+                text = f"its cranks stand where its joints cannot be, {periods} periods in a row"
+                cure = "look for a loose rod or crank, or measure the linkage again"
+                self._alarms.sound(IMPOSSIBLE.alarm(name, text, cure))
 
     def sound(self, index: int, alarms: list[Alarm]) -> None:
         """These are a joint's now: what it had beside them has ended, unless it is latched."""

@@ -19,7 +19,7 @@ _OF_A_MOTOR = (
 FIELDS = {
     "can": (
         "rate_hz", "watchdog_s", "buses.left_leg.bitrate_hz", "joints.left_knee.bus",
-        "joints.left_knee.reply_id", "joints.left_knee.ranges",
+        "joints.left_knee.reply_id", "joints.left_knee.ranges", "linkages",
         *(f"joints.left_knee.{key}" for key in _OF_A_MOTOR),
     ),
     "dynamixel": (

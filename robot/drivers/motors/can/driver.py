@@ -26,13 +26,13 @@ from robot.drivers.motors.can.values import ENABLED
 from robot.drivers.motors.can.verdicts import verdicts
 from robot.drivers.motors.claim import Claim
 from robot.drivers.motors.findings import refuse_grave
-from robot.drivers.motors.gearing import Gearing
 from robot.drivers.motors.holding import Holding
 from robot.drivers.motors.life import Life, not_let_go
 from robot.drivers.motors.limiter import Limiter, Measured
 from robot.drivers.motors.periods import Periods
 from robot.drivers.motors.plant_behind import PlantClock
 from robot.drivers.motors.speed_check import SpeedCheck
+from robot.drivers.motors.transmission import AtMotors, Transmission
 from robot.drivers.motors.watching import SILENT_PERIODS
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
@@ -108,7 +108,7 @@ class CanMotors(Closing):
         self._commanded = self._lost_before = 0
         self._clock, self._periods = clock, Periods(clock, joints.period_s)
         self._motors = list(joints.joints.values())
-        self._gearing, self.limiter = Gearing(joints), Limiter(joints)
+        self._transmission, self.limiter = Transmission(joints), Limiter(joints)
         self._refreshes = _refreshes(joints)
         self._claim = Claim(f"{bus.interface}:{bus.channel}" for bus in joints.buses.values())
         self._life = Life(ports, self._claim)
@@ -155,6 +155,8 @@ class CanMotors(Closing):
     def _understand(self) -> None:
         """Read and write frames by the ranges that the motors have."""
         self._low, self._high = limits(self.ranges)
+        gears = [one.gear for one in self._motors]
+        self._transmission.most_nm = np.array([most.torque_nm for most in self.ranges]) * gears
         self._coding = Coding(self.joints, self.ranges)
         self.reception = Reception(self.joints, self.ranges, self._coding)
 
@@ -273,7 +275,8 @@ class CanMotors(Closing):
     def _state(self) -> MotorState:
         now_s, heard = self._clock.now_s(), self.reception
         heard.end_period()
-        q, qd, tau = heard.at_joints(self._gearing)
+        self._at = q, qd, tau = heard.at_joints(self._transmission)
+        self._watch.joints.linkages(self._transmission.unsolved)
         self._watch.look(now_s, heard, q, qd, self.queues, is_armed=self._is_armed)
         self._commanded += self._is_armed
         if self._is_armed:
@@ -282,9 +285,9 @@ class CanMotors(Closing):
         let_go = any(self.status_of(index) == watching.LOST for index in odd)
         return MotorState(
             stamp_s=now_s,
-            q=q,
-            qd=qd,
-            tau=tau,
+            q=q.copy(),
+            qd=qd.copy(),
+            tau=tau.copy(),
             temperature_c=heard.temperature_c.copy(),
             age_s=now_s - heard.heard_s,
             watchdog=not (self._is_armed or self._is_left_enabled) or let_go,
@@ -350,7 +353,7 @@ class CanMotors(Closing):
             self._lost_before, self._commanded = self.reception.lost, 0
             self.reception.status[:] = ENABLED
             self._periods.begin()
-        q, qd, _ = self.reception.at_joints(self._gearing)
+        q, qd, _ = self._at
         measured = Measured(q, qd, self.reception.temperature_c)
         wanted = self._holding.decided(command, self.alarms.level, obeyed=self._sent, q=q)
         limited = self.limiter.apply(wanted, measured)
@@ -366,27 +369,18 @@ class CanMotors(Closing):
             self._understand()
         told = arming.arm(ports, self._clock, self.joints, self.ranges)
         self.reception.found([told[name] for name in self.joints.joints], self._clock.now_s())
+        self._at = self.reception.at_joints(self._transmission)
 
     def _send(self, ports: Ports, command: MotorCommand) -> MotorCommand:
-        gearing = self._gearing
-        targets = np.stack(
-            (
-                gearing.motor_q(command.q_des), gearing.motor_qd(command.qd_des),
-                command.kp / gearing.stiffness, command.kd / gearing.stiffness,
-                gearing.motor_tau(command.tau_ff),
-            )
-        )  # fmt: skip
+        transmission, (q, qd, _) = self._transmission, self._at
+        targets = np.stack(transmission.at_motors(command, q, qd))
         np.clip(targets, self._low, self._high, out=targets)
         frames, said = self._coding.commands(targets)
         for bus, packed_frames in frames.items():
             self.queues[bus].put(packed_frames)
         self._flush(ports)
         self._asked = True
-        q, qd, kp, kd, tau = said
-        return MotorCommand(
-            command.stamp_s, gearing.joint_q(q), gearing.joint_qd(qd), gearing.joint_tau(tau),
-            kp * gearing.stiffness, kd * gearing.stiffness,
-        )  # fmt: skip
+        return transmission.said(command, AtMotors(*said), q, qd)
 
     def _flush(self, ports: Ports) -> None:
         now_s = self._clock.now_s()

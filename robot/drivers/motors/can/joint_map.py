@@ -18,14 +18,14 @@ from typing import Annotated, TypeAlias
 
 import msgspec
 
-from robot.drivers.motors import motor_map
+from robot.drivers.motors import linkage, motor_map
 from robot.drivers.motors.can import load as bus_load
 from robot.drivers.motors.can.families import FAMILIES, Family
 from robot.drivers.motors.can.frames import BITRATE_HZ
 from robot.drivers.motors.can.mit11 import MOST_ID
 from robot.drivers.motors.can.models import MODELS
 from robot.drivers.motors.can.values import Ranges
-from robot.drivers.motors.motor_map import Motor, MotorMap, Wrong
+from robot.drivers.motors.motor_map import LinkedMap, Motor, Wrong
 from robot.files import quantities as q
 from robot.model.description import RobotDescription
 
@@ -132,8 +132,8 @@ class JointMotor(Motor, frozen=True, kw_only=True, forbid_unknown_fields=True):
         return MODELS[self.model].kd * self.gear * self.gear
 
 
-class JointMap(MotorMap, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """All motors on CAN of a robot, or of a part of one (`MotorMap`).
+class JointMap(LinkedMap, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """All motors on CAN of a robot, or of a part of one (`LinkedMap`).
 
     Attributes:
         watchdog_s: written into every motor at the start.
@@ -175,7 +175,7 @@ def load(path: Path | str) -> JointMap:
     Raises:
         ConfigError: with everything that is wrong in it, each with its line and a cure.
     """
-    checks = (_names, _mixed, _identifiers, _limits, _loads)
+    checks = (_names, _mixed, _identifiers, _limits, _linkages, _loads)
     return motor_map.read(path, JointMap, begin_with="rate_hz: 500", checks=checks)
 
 
@@ -269,17 +269,38 @@ def _identifiers(found: JointMap) -> Iterator[Wrong]:
 def _limits(found: JointMap) -> Iterator[Wrong]:
     """A limit that the motor cannot meet, or that its frames cannot say."""
     yield from motor_map.hasty(found)
+    linked = found.linked
     for name, joint in found.joints.items():
-        if joint.model in MODELS and not math.isnan(joint.expected.torque_nm):
-            most = joint.expected
-            yield from motor_map.unmet(
-                f"$.joints.{name}",
-                joint,
-                most_rad=most.position_rad,
-                why=partial(_unsaid, most.position_rad),
-                speed_rad_s=most.velocity_rad_s,
-                torque_nm=most.torque_nm,
-            )
+        if name in linked:
+            yield from motor_map.upside_down(f"$.joints.{name}", joint)
+        elif joint.model in MODELS:
+            yield from _unmet(name, joint)
+
+
+def _unmet(name: str, joint: JointMotor) -> Iterator[Wrong]:
+    most = joint.expected
+    if not math.isnan(most.torque_nm):
+        yield from motor_map.unmet(
+            f"$.joints.{name}",
+            joint,
+            most_rad=most.position_rad,
+            why=partial(_unsaid, most.position_rad),
+            speed_rad_s=most.velocity_rad_s,
+            torque_nm=most.torque_nm,
+        )
+
+
+def _linkages(found: JointMap) -> Iterator[Wrong]:
+    """Linkages that cannot be, or whose cranks want more than their motors can."""
+    wrong = [*linkage.wrong(found.linkages, found.joints)]
+    yield from wrong
+    if wrong or any(joint.model not in MODELS for joint in found.joints.values()):
+        return
+    cranks = linkage.at_cranks(found.linkages, found.joints)
+    for name, whose in found.linked.items():
+        for where, text, _ in _unmet(name, cranks[name]):
+            cure = "another motor or gear, or lower limits of the joints that it moves"
+            yield where, f"at its crank in the linkage {whose!r} {text}", cure
 
 
 def _unsaid(most_rad: float, turned_rad: float) -> str:

@@ -25,8 +25,8 @@ from robot.drivers.motors.can.packed import (
 )
 from robot.drivers.motors.can.replies import is_about_register, may_be_about_register
 from robot.drivers.motors.can.values import DISABLED, NOBODY, Feedback, Ranges
-from robot.drivers.motors.gearing import Gearing
 from robot.drivers.motors.jumps import Jumps
+from robot.drivers.motors.transmission import Transmission
 from robot.se3 import Array
 
 
@@ -181,6 +181,6 @@ class Reception:
             self.doubles = np.where(replies > 1, self.doubles + 1, 0)
         self._replies = np.zeros_like(replies)
 
-    def at_joints(self, gearing: Gearing) -> tuple[Array, Array, Array]:
+    def at_joints(self, transmission: Transmission) -> tuple[Array, Array, Array]:
         """Angles, speeds and torques of the joints; arrays of their own."""
-        return gearing.joint_q(self.q), gearing.joint_qd(self.qd), gearing.joint_tau(self.tau)
+        return transmission.at_joints(self.q, self.qd, self.tau)

@@ -12,7 +12,8 @@ from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.drivers.motors.can.models import MODELS
 from robot.drivers.motors.can.watching import LOST
 from robot.drivers.motors.findings import Finding, Said, findings
-from robot.drivers.motors.mounting import misplaced
+from robot.drivers.motors.linkage import at_cranks
+from robot.drivers.motors.transmission import Motion, placed, where_wrong
 
 SAME_SHARE = 1e-4
 """Registers are single floats; a range that somebody changed differs by more."""
@@ -23,16 +24,41 @@ ASKED_WITHIN_S = 0.3
 
 def verdicts(joints: JointMap, answers: Mapping[str, Answers]) -> list[Finding]:
     """All that disagrees, in the map's order."""
+    cranks, told = at_cranks(joints.linkages, joints.joints), told_by(joints, answers)
+    for name, joint in joints.joints.items():
+        if joint.family.asking is None or answers[name].ranges(joint) is None:
+            told[name] = None
+    angles = placed(joints, told)
     return findings(
         {
-            name: _of_one(joint, asking, answers[name])
+            name: _of_one(cranks[name], asking, answers[name], joint, angles[name])
             for name, joint in joints.joints.items()
             if (asking := joint.family.asking) is not None
         }
     )
 
 
-def _of_one(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[Said]:
+def told_by(joints: JointMap, answers: Mapping[str, Answers]) -> dict[str, Motion | None]:
+    """What each motor says of itself, at its shaft."""
+    states = {name: answers[name].feedback for name in joints.joints}
+    return {
+        name: None if one is None else Motion(one.q_rad, one.qd_rad_s, one.tau_nm)
+        for name, one in states.items()
+    }
+
+
+def _of_one(
+    joint: JointMotor, asking: Asking, answer: Answers, at: JointMotor, q_rad: float | None
+) -> Iterator[Said]:
+    """Of one motor.
+
+    Args:
+        joint: of it, or its crank as a joint.
+        asking: how it is asked.
+        answer: what it said.
+        at: the joint that the map names it at.
+        q_rad: where that stands; None: not told.
+    """
     where = f"motor {joint.id} on the bus {joint.bus!r}"
     if not answer.registers:
         cure = "check its power, its cable and its id; `humanoid motors scan` lists who is there"
@@ -49,7 +75,7 @@ def _of_one(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[Said
     if asking.console is not None:
         yield from asking.console.objections(answer.registers, answer.settings, _needs(joint))
     yield from _scale(joint, asking, answer)
-    yield from _state(joint, answer)
+    yield from _state(at, answer, q_rad)
 
 
 def _registers(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[Said]:
@@ -113,7 +139,7 @@ def _scale(joint: JointMotor, asking: Asking, answer: Answers) -> Iterator[Said]
     yield "wrong_range", text, cure, True
 
 
-def _state(joint: JointMotor, answer: Answers) -> Iterator[Said]:
+def _state(joint: JointMotor, answer: Answers, q_rad: float | None) -> Iterator[Said]:
     state, ranges = answer.feedback, answer.ranges(joint)
     if state is None or ranges is None:
         yield "no_state", "it does not tell its state", "check the bus for lost frames", True
@@ -122,6 +148,5 @@ def _state(joint: JointMotor, answer: Answers) -> Iterator[Said]:
     if status.is_fault:
         grave = status.code != LOST
         yield status.code, f"it reports {status.code.replace('_', ' ')}", status.cure, grave
-    q_rad = joint.joint_rad(state.q_rad)
-    if (wrong := misplaced(joint, q_rad)) is not None:
+    if (wrong := where_wrong(joint, q_rad)) is not None:
         yield wrong.code, wrong.text, wrong.cure, True

@@ -9,7 +9,7 @@ from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.drivers.motors.can.reception import Reception
 from robot.drivers.motors.can.sending import TransmitQueue
 from robot.drivers.motors.can.values import DISABLED, ENABLED
-from robot.drivers.motors.watching import UNPLUGGED, JointAlarms
+from robot.drivers.motors.watching import IMPOSSIBLE, UNPLUGGED, JointAlarms
 from robot.se3 import Array
 
 FULL_S = 0.010
@@ -43,7 +43,7 @@ QUEUE_FULL = Kind(
     "an interface takes nothing; what waits is replaced by what is newer, and never queued",
     f"{1000 * FULL_S:g} ms",
 )
-KINDS = (STRAINED, FAULT, BUS_OFF, TWIN, QUEUE_FULL)
+KINDS = (STRAINED, FAULT, BUS_OFF, TWIN, IMPOSSIBLE, QUEUE_FULL)
 """What only motors on CAN have."""
 
 

@@ -255,8 +255,7 @@ class EthernetMotors(Closing):
         now_s, heard = self._clock.now_s(), self.reception
         heard.end_period()
         self._at = q, qd, tau = heard.at_joints(self._transmission)
-        for linkage, periods in self._transmission.unsolved:
-            self._watch.linkage(linkage, periods)
+        self._watch.joints.linkages(self._transmission.unsolved)
         strangers = self._life.lines.strangers
         self._watch.look(now_s, heard, q, qd, strangers=strangers, is_armed=self._is_armed)
         self._commanded += self._is_armed

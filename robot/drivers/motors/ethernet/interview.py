@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -28,8 +27,7 @@ from robot.drivers.motors.ethernet.joint_map import KD_MOST, KP_MOST, DriveMap, 
 from robot.drivers.motors.ethernet.talking import Question, Talk
 from robot.drivers.motors.findings import Finding, Said, findings
 from robot.drivers.motors.linkage import Needed, needed
-from robot.drivers.motors.mounting import misplaced
-from robot.drivers.motors.transmission import Transmission
+from robot.drivers.motors.transmission import Motion, joints_of, placed, where_wrong
 
 SAME_SHARE = 0.001
 
@@ -133,36 +131,23 @@ def status(state: int, faults: tuple[str, ...]) -> str:
     return State(state).name.lower() if state in [*State] else f"state_{state}"
 
 
-def at_joints(
-    joints: DriveMap, answers: Mapping[str, Answers]
-) -> dict[str, tuple[float, float, float]]:
+def at_joints(joints: DriveMap, answers: Mapping[str, Answers]) -> dict[str, Motion]:
     """Angle, speed and torque of each joint; NaN where a motor that it takes did not tell."""
-    told = [answers[name].drive for name in joints.joints]
-    q, qd, tau = (
-        np.array([math.nan if one is None else getattr(one, field) for one in told])
-        for field in ("q_rad", "qd_rad_s", "tau_nm")
-    )
-    transmission = Transmission(joints)
-    rows = np.array(transmission.at_joints(q, qd, tau))
-    for linkage, unsolved in transmission.unsolved:
-        if unsolved:
-            names = joints.linkages[linkage].joints
-            rows[:, [name in names for name in joints.joints]] = math.nan
+    return joints_of(joints, _told(joints, answers))
+
+
+def _told(joints: DriveMap, answers: Mapping[str, Answers]) -> dict[str, Motion | None]:
+    drives = {name: answers[name].drive for name in joints.joints}
     return {
-        name: (row[0], row[1], row[2])
-        for name, row in zip(joints.joints, rows.T.tolist(), strict=True)
+        name: None if one is None else Motion(one.q_rad, one.qd_rad_s, one.tau_nm)
+        for name, one in drives.items()
     }
 
 
 def verdicts(joints: DriveMap, answers: Mapping[str, Answers]) -> list[Finding]:
     """All that disagrees, in the map's order."""
     wanted = needed(joints.linkages, joints.joints)
-    angles: dict[str, float | None] = {
-        name: q for name, (q, _, _) in at_joints(joints, answers).items()
-    }
-    for linkage in joints.linkages.values():
-        if any(name in answers and answers[name].drive is None for name in linkage.joints):
-            angles |= dict.fromkeys(linkage.joints, None)  # nobody can tell without all of them
+    angles = placed(joints, _told(joints, answers))
     return findings(
         {
             name: _of_one(joints, one, answers[name], wanted[name], angles[name])
@@ -238,10 +223,5 @@ def _state(joint: JointDrive, answer: Answers, q_rad: float | None) -> Iterator[
     if is_on and told.flags & FLAGS_OTHERS and drive.state == State.ENABLED:
         text = "another program has enabled it"
         yield "commanded", text, "it is taken over by the first command", False
-    if q_rad is None:
-        return
-    if math.isnan(q_rad):
-        text = "its linkage does not fit: its motors stand where its joints cannot be"
-        yield "linkage", text, "look at signs, offsets and rods in the map", True
-    elif (wrong := misplaced(joint, q_rad)) is not None:
+    if (wrong := where_wrong(joint, q_rad)) is not None:
         yield wrong.code, wrong.text, wrong.cure, True

@@ -21,8 +21,7 @@ from robot.drivers.motors import linkage, motor_map
 from robot.drivers.motors.ethernet import load as link_load
 from robot.drivers.motors.ethernet.datagrams import MOST_SLOTS
 from robot.drivers.motors.ethernet.load import BoardLink
-from robot.drivers.motors.linkage import Linkage
-from robot.drivers.motors.motor_map import Motor, MotorMap, Wrong
+from robot.drivers.motors.motor_map import LinkedMap, Motor, Wrong
 from robot.files import quantities as q
 from robot.model.description import RobotDescription
 
@@ -113,14 +112,13 @@ class JointDrive(Motor, frozen=True, kw_only=True, forbid_unknown_fields=True):
         return KD_MOST * self.gear * self.gear
 
 
-class DriveMap(MotorMap, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """All motors behind Ethernet of a robot (`MotorMap`).
+class DriveMap(LinkedMap, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """All motors behind Ethernet of a robot (`LinkedMap`).
 
     Attributes:
         watchdog_s: written into every board at the start.
         uplink_hz: of the computer's own link, each way.
         boards: by name.
-        linkages: by name: joints that their motors move together.
     """
 
     rate_hz: Rate
@@ -128,12 +126,6 @@ class DriveMap(MotorMap, frozen=True, kw_only=True, forbid_unknown_fields=True):
     uplink_hz: Bits = 100_000_000
     boards: dict[str, Board]
     joints: dict[str, JointDrive]
-    linkages: dict[str, Linkage] = msgspec.field(default_factory=dict[str, Linkage])
-
-    @property
-    def linked(self) -> Mapping[str, str]:
-        """The linkage of each joint that is in one."""
-        return {one: name for name, found in self.linkages.items() for one in found.joints}
 
     @property
     def channels(self) -> Mapping[str, str]:
@@ -229,9 +221,7 @@ def _limits(found: DriveMap) -> Iterator[Wrong]:
     """What a motor can meet, its board says; that is compared when it is asked."""
     yield from motor_map.hasty(found)
     for name, joint in found.joints.items():
-        if joint.lower_rad >= joint.upper_rad:
-            text = "lower_rad is not below upper_rad"
-            yield f"$.joints.{name}.lower_rad", text, "exchange them"
+        yield from motor_map.upside_down(f"$.joints.{name}", joint)
 
 
 def _linkages(found: DriveMap) -> Iterator[Wrong]:

@@ -12,11 +12,10 @@ from robot.drivers.motors.ethernet.datagrams import FLAGS_EXPIRED, FLAGS_OTHERS,
 from robot.drivers.motors.ethernet.interview import faults_of
 from robot.drivers.motors.ethernet.joint_map import DriveMap
 from robot.drivers.motors.ethernet.reception import FromBoard, Reception
-from robot.drivers.motors.watching import UNPLUGGED, JointAlarms
+from robot.drivers.motors.watching import IMPOSSIBLE, UNPLUGGED, JointAlarms
 from robot.se3 import Array
 
 FULL_S = 0.010
-IMPOSSIBLE_PERIODS = 3
 NOISY_S, NOISY_DATAGRAMS = 1.0, 5
 """So many refused datagrams of a board in so long."""
 
@@ -52,13 +51,6 @@ OTHERS = Kind(
     Level.SIT,
     "a board obeys another program than this one",
     "1 period",
-    is_latched=True,
-)
-IMPOSSIBLE = Kind(
-    "linkage",
-    Level.SIT,
-    f"cranks of a linkage stood where its joints cannot be, {IMPOSSIBLE_PERIODS} periods in a row",
-    f"{IMPOSSIBLE_PERIODS} periods",
     is_latched=True,
 )
 FULL = Kind(
@@ -103,13 +95,6 @@ class Watch:
         """There is no way to a board any more."""
         cure = "plug it in, see that the network is up (ip address show), and start again"
         self._alarms.sound(UNPLUGGED.alarm(board, why, cure))
-
-    def linkage(self, name: str, periods: int) -> None:
-        """For so many periods in a row its cranks stood where its joints cannot be."""
-        if periods >= IMPOSSIBLE_PERIODS:
-            text = f"its cranks stand where its joints cannot be, {periods} periods in a row"
-            cure = "look for a loose rod or crank, or measure the linkage again"
-            self._alarms.sound(IMPOSSIBLE.alarm(name, text, cure))
 
     def full(self, board: str, for_s: float) -> None:
         """The system takes nothing for a board, for so long by now; 0: it does."""

@@ -1,5 +1,7 @@
 """Linkages between motors and joints: against a mechanism of MuJoCo, and by work and torque."""
 
+from typing import TypeAlias
+
 import msgspec
 import mujoco
 import numpy as np
@@ -7,15 +9,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robot.bringup import ethernet_tools, motor_bench
+from robot.bringup import can_tools, ethernet_tools, motor_bench
 from robot.drivers.motor_bus import MotorCommand
+from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.ethernet import joint_map
 from robot.drivers.motors.ethernet.joint_map import DriveMap
-from robot.drivers.motors.linkage import Belts, Rod, Rods, needed, solved
+from robot.drivers.motors.linkage import Belts, Rod, Rods, at_cranks, needed, solved
 from robot.drivers.motors.transmission import Transmission
 from robot.errors import ConfigError, DriverError
+from sim.devices import direct
 from sim.devices.ethernet_bench import DirectPorts
-from tests.fakes.ethernet_rig import Rig
+from tests.fakes import can_rig, ethernet_rig
+from tests.fakes.few_motors import motors_of
 
 ANKLE = Rods(
     joints=("pitch", "roll"),
@@ -249,54 +254,136 @@ def test_what_cranks_have_to_give_is_told_by_the_worst_angles(joints):
     assert wants["roll"].velocity_rad_s >= 8.0
 
 
-# --- the driver ----------------------------------------------------------------------------------
+# --- the drivers ---------------------------------------------------------------------------------
+
+STRONG = "ranges: {position_rad: 12.5, velocity_rad_s: 40, torque_nm: 60}"
+AnyRig: TypeAlias = ethernet_rig.Rig | can_rig.Rig
+CAN_FOOT = (
+    FOOT.replace("boards:", "buses:").replace("address: 10.0.7.11, number: 1", "channel: can0")
+    .replace("board: shank", "bus: shank")
+    .replace("ANKLE, id: 0", "DM8009, id: 3").replace("ANKLE, id: 1", "DM8009, id: 1")
+    .replace("TOE, id: 2", "DM4310, id: 2")
+)  # fmt: skip
+MOTEUS_FOOT = (
+    CAN_FOOT.replace("can0}", "can0, data_bitrate_hz: 5000000}")
+    .replace("model: DM8009", f"model: moteus-x1, {STRONG}")
+    .replace("model: DM4310", f"model: moteus-x1, {STRONG}")
+)
+ROBSTRIDE_FOOT = (
+    CAN_FOOT.replace("DM8009", "RS03").replace("DM4310", "RS00").replace("rad_s: 8", "rad_s: 5")
+)
+CAN_FEET = {"damiao": CAN_FOOT, "robstride": ROBSTRIDE_FOOT, "moteus": MOTEUS_FOOT}
 
 
-def test_two_motors_bring_both_joints_where_they_are_sent(joints):
-    rig = Rig(joints, is_still=True)
-    for drive in rig.bench.drives.values():
-        drive.shaft._spring_nm_rad = 0.0
+def can_foot(folder, text: str = CAN_FOOT) -> JointMap:
+    return can_rig.arm(folder, text)
+
+
+@pytest.fixture(params=["ethernet", *CAN_FEET])
+def rig(request, tmp_path) -> AnyRig:
+    if request.param == "ethernet":
+        made: AnyRig = ethernet_rig.Rig(foot(tmp_path), is_still=True)
+    else:
+        made = can_rig.Rig(can_foot(tmp_path, CAN_FEET[request.param]))
+    for name in made.joints.joints:
+        shaft = motors_of(made)[name].shaft
+        shaft._spring_nm_rad = shaft.qd_rad_s = 0.0
+    return made
+
+
+def test_two_motors_bring_both_joints_where_they_are_sent(rig):
     with rig.driver as driver:
         state = rig.cycle(1500, q=0.25, kp=40.0, kd=2.0)
         np.testing.assert_allclose(state.q, 0.25, atol=0.002)
         assert not driver.alarms.on
-        cranks, _ = joints.linkages["ankle"].at(np.array([0.25, 0.25]))
-        pitch, roll = (rig.drive(name).shaft.q_rad for name in ("pitch", "roll"))
+        cranks, _ = rig.joints.linkages["ankle"].at(np.array([0.25, 0.25]))
+        pitch, roll = (motors_of(rig)[name].shaft.q_rad for name in ("pitch", "roll"))
         assert pitch == pytest.approx(-2.0 * (cranks[0] - 0.2), abs=0.01)
         assert roll == pytest.approx(1.5 * cranks[1], abs=0.01)
 
 
-def test_a_reading_tells_joints_and_a_program_can_have_it(joints):
-    rig = Rig(joints, is_still=True)
-    with DirectPorts(rig.bench, rig.clock) as ports:
-        rows = ethernet_tools.readings(ports, rig.clock, joints)
+def test_what_it_says_was_sent_is_the_law_of_the_joints_by_what_the_motors_obey(rig):
+    with rig.driver as driver:
+        state = rig.cycle(200, q=0.1, kp=20.0, kd=1.0)
+        asked = rig.hold(0.105, kp=20.0, kd=1.0)
+        said = driver.write(asked)
+        law = said.kp * (said.q_des - state.q) + said.kd * (said.qd_des - state.qd) + said.tau_ff
+        wanted = asked.kp * (asked.q_des - state.q) - asked.kd * state.qd
+        np.testing.assert_allclose(law, wanted, atol=0.25)
+        np.testing.assert_allclose(said.q_des[:2], asked.q_des[:2])
+        driver.read()
+
+
+def test_a_reading_tells_joints_and_a_program_can_have_it(rig):
+    if isinstance(rig, ethernet_rig.Rig):
+        with DirectPorts(rig.bench, rig.clock) as ports:
+            rows = ethernet_tools.readings(ports, rig.clock, rig.joints)
+    else:
+        with direct.DirectPorts(rig.bench, rig.clock) as ports:
+            rows = can_tools.readings(ports, rig.clock, rig.joints)
     told = {row["joint"]: row for row in msgspec.json.decode(msgspec.json.encode(rows))}
-    assert told["pitch"]["q_rad"] == pytest.approx(-0.1, abs=1e-3)
-    assert told["roll"]["q_rad"] == pytest.approx(0.0, abs=1e-3)
-    assert told["toe"]["q_rad"] == pytest.approx(0.05, abs=1e-3)
-    assert told["toe"]["supply_v"] == pytest.approx(48.0)
+    assert told["pitch"]["q_rad"] == pytest.approx(-0.1, abs=2e-3)
+    assert told["roll"]["q_rad"] == pytest.approx(0.0, abs=2e-3)
+    assert told["toe"]["q_rad"] == pytest.approx(0.05, abs=2e-3)
+    assert told["toe"]["supply_v"] is not None
 
 
-def test_a_crank_that_slipped_is_seen_where_no_joints_can_be(joints):
-    rig = Rig(joints, is_still=True)
+def test_a_crank_that_slipped_is_seen_where_no_joints_can_be(rig):
     with rig.driver as driver:
         rig.cycle(50, q=0.0, kp=5.0)
-        rig.drive("pitch").shaft.q_rad += 4.0
-        rig.drive("pitch").shaft._gained = 1e-9
+        shaft = motors_of(rig)["pitch"].shaft
+        shaft.q_rad += 4.0
+        shaft._gained = 1e-9
         rig.cycle(20, q=0.0, kp=5.0)
         assert ("linkage", "ankle") in {(one.code, one.who) for one in driver.alarms.on}
         assert np.isfinite(rig.cycle(1, q=0.0, kp=5.0).q).all()
 
 
-def test_a_linkage_whose_motors_stand_where_no_joints_are_is_not_enabled(joints):
-    rig = Rig(joints, is_still=True)
-    rig.drive("pitch").zero_rad = 4.0
+def test_a_linkage_whose_motors_stand_where_no_joints_are_is_not_enabled(rig):
+    if isinstance(rig, ethernet_rig.Rig):
+        rig.drive("pitch").zero_rad = 4.0
+    else:
+        motors_of(rig)["pitch"].shaft.q_rad += 4.0
     with pytest.raises(DriverError, match="its linkage does not fit"), rig.driver:
         pass
 
 
+def test_a_driver_knows_what_its_motors_give_at_their_cranks(rig):
+    with rig.driver as driver:
+        gives = {name: one.gear for name, one in rig.joints.joints.items()}
+        for name, gear in gives.items():
+            motor = motors_of(rig)[name]
+            most = motor.torque_nm if isinstance(rig, can_rig.Rig) else motor.kind.torque_nm
+            gives[name] = gear * most
+        np.testing.assert_allclose(driver._transmission.most_nm, [*gives.values()], rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("gear: 1.5", "gear: 0.3", "at its crank in the linkage 'ankle'.*N m at most"),
+        ("rod_m: 0.30", "rod_m: 0.20", "a rod does not reach"),
+        ("joints: [pitch, roll]", "joints: [pitch, rol]", "there is no joint 'rol'"),
+        ("lower_rad: -0.9, upper_rad: 0.7", "lower_rad: 0.9, upper_rad: 0.7", "not below upper"),
+    ],
+)
+def test_on_can_what_its_motors_cannot_do_at_their_cranks_is_refused(tmp_path, old, new, said):
+    assert old in CAN_FOOT
+    with pytest.raises(ConfigError, match=said):
+        can_foot(tmp_path, CAN_FOOT.replace(old, new))
+
+
+def test_what_a_motor_has_to_do_is_that_of_its_crank(joints):
+    found = at_cranks(joints.linkages, joints.joints)
+    assert found["toe"] == joints.joints["toe"]
+    for angles in np.random.default_rng(5).uniform((-0.9, -0.4), (0.7, 0.4), (200, 2)):
+        stand, _ = ANKLE.at(angles)
+        for crank, name in zip(stand, ("pitch", "roll"), strict=True):
+            assert found[name].lower_rad - 0.02 <= crank <= found[name].upper_rad + 0.02
+
+
 def test_a_motor_too_weak_for_its_crank_is_named(joints):
-    rig = Rig(joints, roll="weak")
+    rig = ethernet_rig.Rig(joints, roll="weak")
     with pytest.raises(
         DriverError, match=r"roll: its drive does .* N m at the joint, the map says"
     ):

@@ -11,6 +11,7 @@ from robot.messages import Walk
 from robot.model import description
 from sim import world
 from sim.plant import Plant
+from tests.fakes.ankles import ANKLES
 from tests.fakes.ethernet_lockstep import EthernetLockstep
 from tests.unit.sim.devices.test_plant_buses import holding
 
@@ -99,18 +100,6 @@ def test_it_walks_over_a_network_that_loses_every_twentieth_exchange(robot, rig)
         assert 0.03 < driver.reception.lost / (1100 * 33) < 0.07
         assert loop.mode == "walk"
     assert rig.plant.where(robot.base_body).p[0] > 0.2
-
-
-ANKLES = """
-linkages:
-  left_ankle: {type: rods, joints: [left_ankle_pitch, left_ankle_roll], rods: [
-    {motor_at_m: [0, 0.03, 0.2], crank_m: 0.05, rod_m: 0.22, foot_at_m: [-0.05, 0.03, -0.02]},
-    {motor_at_m: [0, -0.03, 0.28], crank_m: 0.05, rod_m: 0.3, foot_at_m: [-0.05, -0.03, -0.02]}]}
-  right_ankle: {type: rods, joints: [right_ankle_pitch, right_ankle_roll], rods: [
-    {motor_at_m: [0, 0.03, 0.28], crank_m: 0.05, rod_m: 0.3, foot_at_m: [-0.05, 0.03, -0.02]},
-    {motor_at_m: [0, -0.03, 0.2], crank_m: 0.05, rod_m: 0.22, foot_at_m: [-0.05, -0.03, -0.02]}]}
-  waist: {type: belts, joints: [waist_roll, waist_pitch], turns: [[1, 1], [1, -1]]}
-"""
 
 
 def test_it_walks_on_ankles_of_two_rods_and_a_waist_of_a_differential(robot, tmp_path):

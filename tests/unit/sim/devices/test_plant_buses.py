@@ -15,6 +15,7 @@ from robot.model import description
 from sim import plant_buses, world
 from sim.plant import Plant
 from sim.simulation import Simulation
+from tests.fakes.ankles import ANKLES
 from tests.fakes.can_lockstep import Lockstep
 
 
@@ -107,7 +108,7 @@ def test_what_motors_tell_is_where_the_joints_are(robot, rig):
             driver.write(holding(robot, rig.now_s()))
             state = driver.read()
         truth = rig.plant.read().motors
-        one_step = 25.0 / 65535 / np.abs(driver._gearing.turns)
+        one_step = 25.0 / 65535 / np.abs(driver._transmission.gearing.turns)
         moved = np.abs(truth.qd) * 0.002
         assert (np.abs(state.q - truth.q) <= one_step + moved + 1e-4).all()
         heavy = np.abs(truth.tau) > 5.0
@@ -299,3 +300,28 @@ def test_reality_is_asked_what_it_emulates(robot, tmp_path):
     moved = msgspec.structs.replace(robot, folder=str(tmp_path))
     with pytest.raises(ConfigError, match=r"head_yaw: a AK70-10 is not emulated"):
         Simulation().check_motors(moved, "can")
+
+
+def test_it_walks_on_can_with_ankles_of_two_rods_and_a_waist_of_a_differential(robot, tmp_path):
+    path = tmp_path / "can.yaml"
+    text = robot.path().with_name("can.yaml").read_text()
+    text = text.replace("bus: feet, model: DM8009", "bus: feet, model: DM10010L")
+    # Farther down these rods come near to a line with their cranks, and want 200 N m.
+    text = text.replace("lower_rad: -1.2, upper_rad: 0.7", "lower_rad: -0.9, upper_rad: 0.7")
+    path.write_text(text.replace("velocity_limit_rad_s: 12", "velocity_limit_rad_s: 11") + ANKLES)
+    joints = joint_map.of_robot(joint_map.load(path), robot.motor_names)
+    plant = Plant(world.load("empty"), robot, seed=0, noisy=False)
+    rig = Lockstep(plant, joints, tmp_path)
+    loop = ControlLoop(robot)
+    with rig.driver() as driver:
+        for k in range(900):
+            state, felt = driver.read(), rig.plant.sample
+            driver.write(loop.tick(BodySample(state, felt.imu, felt.force)))
+            if k == 150:
+                loop.handle(Walk(stamp_s=rig.now_s(), id=1, forward_m_s=0.3, hold_s=9.0))
+        truth = rig.plant.read().motors
+        assert (np.abs(state.q - truth.q) <= 0.004 + 0.003 * np.abs(truth.qd)).all()
+        assert loop.mode == "walk"
+        assert not state.alarms
+        assert driver.reception.lost == 0
+    assert rig.plant.where(robot.base_body).p[0] > 0.05
