@@ -8,6 +8,9 @@ from robot.clock import Clock
 
 LOOKS = 2
 """A period, for what came in: to wake up for every reply would take a third of a core more."""
+ANSWERED = 0.5
+"""Of a period, for replies to what went out after its end: else all of them would be late, and what
+goes out next, too."""
 SAME_S = 1e-6
 """Sums of periods are not exact, and the time of a simulation goes on in whole periods."""
 
@@ -39,6 +42,8 @@ class Periods:
         if now_s > self._ends_s + self._period_s:
             self.late += 1
             self._ends_s = now_s
+        if now_s >= self._ends_s - SAME_S:  # what was just asked is not yet answered
+            self._ends_s = now_s + self._period_s * ANSWERED
         until_s = self._ends_s
         while True:
             look_s = self._clock.now_s() + self._period_s / LOOKS

@@ -6,6 +6,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from robot.clock import SimulatedClock
 from robot.closing import Closing
@@ -72,18 +74,35 @@ def test_a_period_that_is_late_by_more_than_one_is_counted_and_moves_the_grid():
     clock = SimulatedClock(0.0)
     periods = Periods(clock, 0.01)
     periods.begin()
-    clock.sleep_until(0.019)  # late by less: what comes next is in time again
+    clock.sleep_until(0.019)  # late by less is not counted
     periods.wait(lambda: None)
     assert periods.late == 0
+    assert clock.now_s() == pytest.approx(0.024)
     periods.wait(lambda: None)
-    assert clock.now_s() == pytest.approx(0.02)
+    assert clock.now_s() == pytest.approx(0.034)
     clock.sleep_until(0.057)
     periods.wait(lambda: None)
     assert periods.late == 1
-    assert clock.now_s() == pytest.approx(0.057)
+    assert clock.now_s() == pytest.approx(0.057 + 0.005)  # what was asked last can be answered
     periods.wait(lambda: None)
-    assert clock.now_s() == pytest.approx(0.067)
+    assert clock.now_s() == pytest.approx(0.072)
     assert periods.late == 1
+
+
+@given(st.lists(st.floats(0.0, 0.03), min_size=1, max_size=40))
+def test_who_asks_after_the_end_of_a_period_is_given_the_time_for_an_answer(busy_s):
+    """However long is worked between two periods: an answer that takes a quarter is heard."""
+    clock = SimulatedClock(0.0)
+    periods = Periods(clock, 0.01)
+    periods.begin()
+    for span_s in busy_s:
+        clock.sleep_until(clock.now_s() + span_s)
+        asked_s, ends_s = clock.now_s(), periods._ends_s
+        periods.wait(lambda: None)
+        waited_s = clock.now_s() - asked_s
+        assert waited_s <= 0.01 + 1e-9
+        if asked_s >= ends_s:
+            assert waited_s == pytest.approx(0.005)
 
 
 # --- life ----------------------------------------------------------------------------------------
