@@ -37,6 +37,7 @@ ROLES = {
     "controller": b"robot.control.main",
     "perception": b"robot.perception.main",
     "plant": b"sim.main",
+    "owner": b"robot.owner.main",
     "executive": b"executive.main",
     "planner": b"--multiprocessing-fork",
 }
@@ -178,7 +179,7 @@ def _strike(
         while job.poll() is None and (now_s := time.monotonic()) < begin_s + END_S:
             observer.look()
             if left and now_s >= next_s:
-                found = _roles(job.pid, seen)
+                found = roles(job.pid, seen)
                 role = _choose(rng, found)
                 os.kill(found[role], signal.SIGKILL)
                 row.kills.append((round(now_s - begin_s, 2), role))
@@ -187,7 +188,7 @@ def _strike(
                 left -= 1
                 next_s = now_s + rng.choice([rng.uniform(0.0, 2.0), rng.uniform(2.0, 12.0)])
             if now_s > looked_s + CENSUS_S:
-                _roles(job.pid, seen)
+                roles(job.pid, seen)
                 looked_s = now_s
             time.sleep(POLL_S)
         observer.look()
@@ -198,9 +199,9 @@ def _private(job: subprocess.Popen[bytes], seen: dict[int, str]) -> Path | None:
     """The run's private folder, once all of its processes are there and the map is looked at."""
     until_s = time.monotonic() + UP_S
     while job.poll() is None and time.monotonic() < until_s:
-        roles = _roles(job.pid, seen)
-        if {"controller", "perception", "plant", "planner"} <= roles.keys():
-            words = _words(roles["controller"])
+        there = roles(job.pid, seen)
+        if {"controller", "perception", "plant", "planner"} <= there.keys():
+            words = _words(there["controller"])
             return next((Path(w).parent for w in words if PREFIX in w), None)
         time.sleep(POLL_S)
     return None
@@ -211,18 +212,18 @@ def _choose(rng: random.Random, found: dict[str, int]) -> str:
     return rng.choices(names, [WEIGHTS[name] for name in names])[0]
 
 
-def _roles(launcher: int, seen: dict[int, str]) -> dict[str, int]:
-    """The run's processes by what they do; `seen` keeps every one that ever was."""
-    roles = {"launcher": launcher}
+def roles(launcher: int, seen: dict[int, str]) -> dict[str, int]:
+    """The processes below one by what they do; `seen` keeps every one that ever was."""
+    found = {"launcher": launcher}
     for pid in sorted(_descendants(launcher)):
         words = _words(pid)
         for role, mark in ROLES.items():
             if any(mark == os.fsencode(word) for word in words):
-                name = f"spare {role}" if role in roles else role
-                roles.setdefault(name, pid)
+                name = f"spare {role}" if role in found else role
+                found.setdefault(name, pid)
                 seen[pid] = name
     seen[launcher] = "launcher"
-    return roles
+    return found
 
 
 def _descendants(root: int) -> set[int]:
