@@ -58,6 +58,8 @@ STRIKES = (
 )
 WEIGHTS = (4, 2, 2, 1, 1)
 PAUSE_S = 0.4
+MOST = 1.01
+"""Of a joint's limit: torques are told in steps, and measured with noise."""
 
 
 @dataclass
@@ -124,7 +126,7 @@ def once(seed: int, driver: str) -> Row:
                 _play(runtime, strike, row, rng, driver)
         except RobotError as error:
             row.outcome = f"{type(error).__name__}: {error}"
-    row.is_allowed = row.outcome in strike.may and row.most <= 1.0
+    row.is_allowed = row.outcome in strike.may and row.most <= MOST
     return row
 
 

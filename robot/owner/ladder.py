@@ -20,6 +20,9 @@ HOLDS_S, AT_MOST_S = 0.006, 0.020
 """So long every joint is held where it was sent last, before the robot is lowered; the longer one
 where another controller has claimed the motors, or the old one still does: a spare's first tick
 takes more than a period, and a standing robot does not notice."""
+FREE_S = 0.004
+"""So long a claim that was let go counts on: the system takes a killed process apart while it still
+has its claim, and a spare can only claim what is free. At most `AT_MOST_S` in all."""
 SEATED_S, DAMPED_S, TIPPING_S = 0.5, 2.0, 0.1
 SLACK_S = 1e-6
 """Sums of periods are not exact."""
@@ -30,7 +33,7 @@ class Signs(NamedTuple):
 
     Attributes:
         silent_s: no command came that is still good, since one did.
-        claimed_s: a process that lives has claimed the motors.
+        claimed_s: a process that lives has claimed the motors, or had until `FREE_S` ago.
         astray_s: the robot does not stand on both feet, near a posture of its squat.
         lowering_s: it is being lowered.
         seated_s: the motion that lowers it has ended.
@@ -111,8 +114,9 @@ ROWS: tuple[Row, ...] = (
     ),
     Row(
         "controller_lost", Level.SIT,
-        f"none for more than {1000 * HOLDS_S:g} ms, no controller has claimed the motors, and the "
-        "robot stands on both feet", REARM, (*LOST, STANDS), below=Level.SIT,
+        f"none for more than {1000 * HOLDS_S:g} ms, no controller has claimed the motors, or had "
+        f"{1000 * FREE_S:g} ms ago, and the robot stands on both feet",
+        REARM, (*LOST, STANDS), below=Level.SIT,
     ),
     Row(
         "controller_silent", Level.SIT,

@@ -63,7 +63,7 @@ class BusOwner:
         self._holding = Holding()
         self._astray, self._lowering, self._seated = Since(), Since(), Since()
         self._damping, self._let_go, self._stop = Since(), Since(), Since()
-        self._claimed = Since()
+        self._claimed, self._claimed_at_s = Since(), -math.inf
 
     @property
     def is_waited_for(self) -> bool:
@@ -130,13 +130,14 @@ class BusOwner:
         now_s, level = sample.motors.stamp_s, self.state.level
         silent_s = 0.0 if is_fresh or self._heard_s is None else now_s - self._heard_s
         self._was_on |= self._is_sent and not sample.motors.watchdog
+        self._claimed_at_s = now_s if is_claimed else self._claimed_at_s
         astray = self._squat is None or not stands(sample, self._body, self._squat)
         lowering = level == Level.SIT
         seated = lowering and self._sitting is not None and self._sitting.is_over(now_s)
         lets_go = self._was_on and sample.motors.watchdog
         return Signs(
             silent_s=silent_s,
-            claimed_s=self._claimed.look(now_s, is_so=is_claimed),
+            claimed_s=self._claimed.look(now_s, is_so=now_s - self._claimed_at_s < ladder.FREE_S),
             astray_s=self._astray.look(now_s, is_so=astray),
             lowering_s=self._lowering.look(now_s, is_so=lowering),
             seated_s=self._seated.look(now_s, is_so=seated),

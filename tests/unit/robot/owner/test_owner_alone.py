@@ -238,3 +238,28 @@ def test_motors_that_stopped_by_themselves_give_no_torque_again_unasked(rig):
     sent = rig.pass_by(commanded=True)
     assert (rig.level, rig.owner.state.code) == (Level.OFF, "motors_let_go")
     assert is_without_torque(sent)
+
+
+@pytest.mark.parametrize("kept", range(1, 8))
+def test_a_spare_has_time_for_a_claim_that_was_let_go_late(rig, kept):
+    """A process that is killed keeps its claim for a while: a spare has its time from then on."""
+    rig.pass_by(20, commanded=True)
+    rig.is_claimed = True
+    rig.pass_by(kept)
+    rig.is_claimed = False
+    rig.pass_by(1)
+    assert rig.level == Level.HOLD
+    rig.is_claimed = True  # the spare
+    rig.pass_by(1)
+    assert rig.level == Level.HOLD
+    rig.pass_by(20, commanded=True)
+    assert rig.owner.state == WELL
+
+
+def test_a_claim_that_stays_free_is_not_waited_for_beyond_20_ms(rig):
+    rig.pass_by(20, commanded=True)
+    for _ in range(5):  # somebody tries again and again, and never commands
+        rig.is_claimed = not rig.is_claimed
+        rig.pass_by(2)
+    rig.pass_by(1)
+    assert rig.level == Level.SIT
