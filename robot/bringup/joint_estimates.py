@@ -168,6 +168,11 @@ def turned(
     return seen
 
 
+def is_whole(reversal: Reversal, half_s: float) -> bool:
+    """Whether enough replies came around it for `turned`."""
+    return _windows(reversal, half_s) is not None
+
+
 def _seen(
     found: Sequence[tuple[float, tuple[_Window, _Window]]], shares: Array, half_s: float
 ) -> Turned:

@@ -19,7 +19,7 @@ import numpy as np
 
 from robot.bringup import motor_families
 from robot.bringup.end_wish import EndWish
-from robot.bringup.joint_estimates import Friction, Reversal, Sweep, friction, turned
+from robot.bringup.joint_estimates import Friction, Reversal, Sweep, friction, is_whole, turned
 from robot.bringup.motor_bench import DAMPING_SHARE, STIFF_RAD, M, Opens, only, opened
 from robot.bringup.motor_family import MapDriver
 from robot.clock import Clock
@@ -43,9 +43,18 @@ ACCELERATION = 90.0
 GENTLE_SHARE = 0.1
 RESTS_S = 0.4
 SURE_SHARE, SURE_NM, SURE_S, SURE_RAD = 0.05, 0.02, 0.0002, 0.0002
-SHORT, ODD, TRIES = "silent", "speed_mismatch", 5
-"""Alarms at HOLD that a busy computer may sound: a few lost replies, in which the last command goes
-on; and speeds that lost replies make look wrong, after which what was being done is done again."""
+SHORT, TRIES = "silent", 5
+ODD = {SHORT, "speed_mismatch", "lost_communication", "disabled"}
+"""Alarms that a busy computer may sound: a few lost replies, and the last command goes on; many,
+speeds that they make look wrong, and a motor that let go as it heard nothing for too long, after
+which what was being done is done again."""
+MOST_BURSTS, LATE_S, AWAY_RAD = 40, 0.01, 0.15
+LESS = 0.75
+"""A torque that is turned round late pushes for too long. So a burst ends after a period that took
+so long, or so far from the middle: what was seen before the former counts, and another is played;
+after the latter all begins anew with less."""
+LISTENS = 50
+"""Periods, until it has said where it is: a busy computer may take its time."""
 STIFF_SHARE, SOFT_SHARE, BACK_SHARE = 0.5, 0.2, 0.1
 """Of what a jog is held with: a joint that obeys late must not shake."""
 
@@ -154,8 +163,15 @@ def _identified(name: str, motion: _Motion) -> Identified:
     push_nm = min(room_nm, max(GENTLE_SHARE * motion.limit_nm, 3.0 * abs(rubs.coulomb.value)))
     for bursts in (1, BURSTS):
         reversals: list[Reversal] = []
-        for _ in range(bursts):
-            reversals += motion.in_tries(partial(motion.burst, push_nm, rubs.weight_nm))
+        for _ in range(MOST_BURSTS):
+            came = motion.in_tries(partial(motion.burst, push_nm, rubs.weight_nm))
+            if motion.was_away:  # it is lighter than it was taken for, or was turned round late
+                reversals.clear()
+                push_nm *= LESS
+                continue
+            reversals += [one for one in came if is_whole(one, HALF_S)]
+            if len(reversals) >= bursts * (HALVES - 1):
+                break
         held = rubs._replace(pull_nm_rad=rubs.pull_nm_rad + motion.back_nm_rad)
         seen = turned(reversals, HALF_S, push_nm=push_nm, rubs=held)
         inertia = push_nm / seen.acceleration
@@ -196,19 +212,24 @@ class _Motion:
         most_nm: the most that it told.
         back_nm_rad: the stiffness that keeps a burst around the middle.
         begun: whether the motor may have been enabled.
+        was_away: whether the last burst ended because it went too far.
     """
 
     def __init__(self, driver: MapDriver, clock: Clock, wish: EndWish, limit_nm: float) -> None:
         self._driver, self._clock, self._wish = driver, clock, wish
-        state = driver.read()
         ((self._name, _),) = driver.joints.joints.items()
-        if not np.isfinite(state.age_s[0]):
+        state = driver.read()
+        for _ in range(LISTENS):
+            if np.isfinite(state.age_s[0]):
+                break
+            state = driver.read()
+        else:
             raise DriverError(f"{self._name} does not say where it is (try again)")
         self.middle = self._q = float(state.q[0])
         self.limit_nm, self.most_nm = limit_nm, 0.0
         self._kp = STIFF_SHARE * limit_nm / STIFF_RAD
         self.back_nm_rad = BACK_SHARE * self._kp
-        self.begun = False
+        self.begun = self.was_away = False
         self._told_s = math.inf
 
     @contextmanager
@@ -282,7 +303,7 @@ class _Motion:
         """
         self.rest()
         begun_s, came, turns = self._clock.now_s(), list[_Sample](), list[tuple[float, float]]()
-        side = 0.0
+        side, before_s = 0.0, begun_s
         while (passed_s := self._clock.now_s() - begun_s) < (HALVES - 0.5) * HALF_S:
             wanted = 1.0 if int(passed_s / HALF_S + 0.5) % 2 == 0 else -1.0
             if wanted != side:
@@ -291,6 +312,11 @@ class _Motion:
             sample = self._step(self.middle, 0.0, weight_nm + side * push_nm, self.back_nm_rad, 0.0)
             if sample is not None:
                 came.append(sample)
+            took_s, before_s = self._clock.now_s() - before_s, self._clock.now_s()
+            self.was_away = abs(self._q - self.middle) > AWAY_RAD
+            if took_s > LATE_S or self.was_away:
+                turns = [turn for turn in turns if turn[0] + 0.5 * HALF_S < before_s - took_s]
+                break
         at_s, q = np.array([one.at_s for one in came]), np.array([one.q for one in came])
         near = [(turn_s, to, np.abs(at_s - turn_s) < HALF_S) for turn_s, to in turns[1:]]
         return [Reversal(to, at_s[close] - turn_s, q[close]) for turn_s, to, close in near]
@@ -305,13 +331,13 @@ class _Motion:
         if self._wish.asked:
             raise DriverError(f"{self._name}: stopped on request, nothing was found")
         if self._clock.now_s() - self._told_s > self._driver.joints.watchdog_s:
-            raise DriverError("this program stood still, so that the motor let go (try again)")
+            raise _OddError("this program stood still, so that the motor let go (try again)")
         found = self._send(q, qd, tau, kp, kd)
         for one in self._driver.alarms.on:
             text = f"{self._name}: {one.cause} ({one.cure})"
-            if one.level > Level.HOLD or (one.level == Level.HOLD and one.code not in {SHORT, ODD}):
+            if one.level >= Level.HOLD and one.code not in ODD:
                 raise DriverError(text)
-            if one.code == ODD:
+            if one.level > Level.HOLD or (one.level == Level.HOLD and one.code != SHORT):
                 raise _OddError(text)
         if abs(self._q - self.middle) > ROOM_RAD:
             text = f"{self._name} went {abs(self._q - self.middle):.2f} rad away, and was let go"

@@ -29,6 +29,9 @@ from robot.drivers.motors.jumps import Jumps
 from robot.drivers.motors.transmission import Transmission
 from robot.se3 import Array
 
+MOST_OWED = 10
+"""Replies that a motor may still give to what it was told before, one a period."""
+
 
 class Reception:
     """The newest feedback of all motors of a map, at their shafts; arrays of shape (n,).
@@ -37,7 +40,7 @@ class Reception:
         q, qd, tau, temperature_c: as told, a lost reply bridged for one period.
         heard_s: when each told it.
         misses: periods in a row without a reply.
-        doubles: periods in a row with more than one reply.
+        doubles: periods in a row with more replies than were still owed: late ones are.
         status: status codes.
         lost, ignored: replies that did not come; frames that were nobody's, or no feedback.
         most_replies: that any motor gave in the last period.
@@ -54,6 +57,7 @@ class Reception:
         self.status: npt.NDArray[np.intp] = np.full(count, DISABLED, np.intp)
         self.doubles: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self.lost = self.ignored = self.most_replies = 0
+        self._owed: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self._replies: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self._coding, self._period_s = coding, joints.period_s
         self._motors = list(joints.joints.values())
@@ -178,7 +182,9 @@ class Reception:
             self.lost += int(np.count_nonzero(silent))
             bridged = (self.misses == 1) & np.isfinite(self.heard_s)
             self.q += np.where(bridged, self.qd * self._period_s, 0.0)
-            self.doubles = np.where(replies > 1, self.doubles + 1, 0)
+            owed = np.minimum(self._owed + 1, MOST_OWED)
+            self.doubles = np.where(replies > owed, self.doubles + 1, 0)
+            self._owed = np.maximum(owed - replies, 0)
         self._replies = np.zeros_like(replies)
 
     def at_joints(self, transmission: Transmission) -> tuple[Array, Array, Array]:

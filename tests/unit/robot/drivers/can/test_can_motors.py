@@ -392,3 +392,26 @@ def test_motors_that_cannot_be_asked_are_silent_without_alarm_until_they_are_com
 def test_a_damaged_command_does_not_exist():
     with pytest.raises(DriverError):
         mit11.target(Frame(1, b"short"), Ranges(1.0, 1.0, 1.0))
+
+
+def test_replies_that_come_late_and_together_are_no_twin(rig: Rig):
+    """Of a busy computer: nothing for six periods, then those of two in each."""
+    with rig.driver as driver:
+        rig.cycle(20, q=0.5)
+        ports = rig.ports[0]
+        hear, kept = ports.receive_packed, list[list[tuple[str, bytes]]]()
+        may_hand = [0]
+
+        def receive():
+            kept[-1].extend(hear())
+            given = [one for _ in range(may_hand[0]) if len(kept) > 1 for one in kept.pop(0)]
+            may_hand[0] = 0
+            return given
+
+        ports.receive_packed = receive
+        for period in range(14):
+            kept.append([])
+            may_hand[0] = 2 if period >= 6 else 0
+            rig.cycle(1, q=0.5)
+            assert "duplicate_id" not in {one.code for one in driver.alarms.on}
+        ports.receive_packed = hear
