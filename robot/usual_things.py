@@ -20,6 +20,7 @@ class Usual(NamedTuple):
         size_m: of a usual one: depth, width, height as it stands.
         least_m, most_m: the shortest and the longest side that such a thing may have.
         mass_kg: of a usual one.
+        vary: by which share (1 sigma) most of them are wider and higher, or less, than that.
     """
 
     kind: Literal["box", "cylinder"]
@@ -27,32 +28,65 @@ class Usual(NamedTuple):
     least_m: float
     most_m: float
     mass_kg: float = 0.2
+    vary: tuple[float, float] = (0.25, 0.30)
 
 
-UNKNOWN = Usual("cylinder", (0.07, 0.07, 0.10), 0.01, 0.45)
+UNKNOWN = Usual("cylinder", (0.07, 0.07, 0.10), 0.01, 0.45, vary=(0.40, 0.60))
 """What nobody knows anything of."""
 
-_CUP = Usual("cylinder", (0.075, 0.075, 0.10), 0.045, 0.16)
-_BOTTLE = Usual("cylinder", (0.065, 0.065, 0.20), 0.04, 0.34, 0.3)
-_CAN = Usual("cylinder", (0.07, 0.07, 0.11), 0.03, 0.22, 0.3)
-_BOX = Usual("box", (0.06, 0.06, 0.10), 0.02, 0.35)
-_BOWL = Usual("cylinder", (0.14, 0.14, 0.07), 0.03, 0.30)
-_FRUIT = Usual("cylinder", (0.07, 0.07, 0.07), 0.03, 0.22)
-_CUTLERY = Usual("box", (0.02, 0.18, 0.015), 0.003, 0.36, 0.05)
+_CUP = Usual("cylinder", (0.075, 0.075, 0.10), 0.045, 0.16, vary=(0.15, 0.20))
+_BOTTLE = Usual("cylinder", (0.065, 0.065, 0.20), 0.04, 0.34, 0.3, (0.18, 0.22))
+_CAN = Usual("cylinder", (0.07, 0.07, 0.11), 0.03, 0.22, 0.3, (0.15, 0.20))
+_SPRAY = Usual("cylinder", (0.06, 0.06, 0.18), 0.04, 0.28, 0.3, (0.18, 0.22))
+_PAINT = Usual("cylinder", (0.09, 0.09, 0.11), 0.05, 0.24, 0.8, (0.20, 0.25))
+_JAR = Usual("cylinder", (0.075, 0.075, 0.105), 0.04, 0.22, 0.4, (0.18, 0.25))
+_BOX = Usual("box", (0.06, 0.06, 0.10), 0.02, 0.35, vary=(0.30, 0.40))
+_BOWL = Usual("cylinder", (0.14, 0.14, 0.07), 0.03, 0.30, vary=(0.30, 0.30))
+_FRUIT = Usual("cylinder", (0.07, 0.07, 0.07), 0.03, 0.22, vary=(0.25, 0.25))
+_CUTLERY = Usual("box", (0.02, 0.18, 0.015), 0.003, 0.36, 0.05, (0.60, 0.50))
+_SMALL = Usual("cylinder", (0.05, 0.05, 0.09), 0.02, 0.16, 0.1, (0.25, 0.30))
 USUAL: dict[str, Usual] = {
-    "cup": _CUP, "mug": _CUP, "glass": _CUP, "tumbler": _CUP, "beaker": _CUP,
-    "bottle": _BOTTLE, "thermos": _BOTTLE, "dispenser": _BOTTLE, "carton": _BOTTLE,
-    "can": _CAN, "tin": _CAN, "jar": _CAN,
-    "box": _BOX, "packet": _BOX, "book": _BOX,
+    "cup": _CUP, "mug": _CUP, "tumbler": _CUP, "beaker": _CUP,
+    "glass": Usual("cylinder", (0.07, 0.07, 0.12), 0.045, 0.25, vary=(0.18, 0.25)),
+    "bottle": _BOTTLE, "thermos": Usual("cylinder", (0.075, 0.075, 0.25), 0.05, 0.36, 0.5,
+                                        (0.18, 0.20)),
+    "dispenser": Usual("cylinder", (0.07, 0.07, 0.18), 0.04, 0.28, 0.4, (0.20, 0.22)),
+    "pill bottle": _SMALL, "carton": Usual("box", (0.07, 0.07, 0.20), 0.05, 0.32, 0.6,
+                                           (0.20, 0.20)),
+    "can": _CAN, "tin": _CAN, "jar": _JAR, "paint jar": _JAR, "spray can": _SPRAY,
+    "paint can": _PAINT, "paint tin": _PAINT, "shaker": _SMALL,
+    "vase": Usual("cylinder", (0.09, 0.09, 0.20), 0.05, 0.40, 0.5, (0.30, 0.30)),
+    "candle": Usual("cylinder", (0.06, 0.06, 0.12), 0.02, 0.32, 0.3, (0.25, 0.40)),
+    "torch": Usual("cylinder", (0.04, 0.04, 0.15), 0.02, 0.35, 0.2, (0.25, 0.25)),
+    "plant pot": Usual("cylinder", (0.10, 0.10, 0.11), 0.05, 0.30, 0.6, (0.25, 0.25)),
+    "trophy": Usual("cylinder", (0.09, 0.09, 0.20), 0.05, 0.45, 0.6, (0.30, 0.30)),
+    "brush": Usual("cylinder", (0.04, 0.04, 0.18), 0.01, 0.35, 0.1, (0.40, 0.30)),
+    "filter": Usual("cylinder", (0.08, 0.08, 0.10), 0.03, 0.30, 0.3, (0.25, 0.30)),
+    "drum": Usual("cylinder", (0.09, 0.09, 0.14), 0.05, 0.40, 0.8, (0.30, 0.35)),
+    "glue stick": Usual("cylinder", (0.03, 0.03, 0.10), 0.015, 0.16, 0.05, (0.25, 0.20)),
+    "tape roll": Usual("cylinder", (0.09, 0.09, 0.05), 0.01, 0.16, 0.15, (0.25, 0.35)),
+    "bandage": Usual("cylinder", (0.06, 0.06, 0.08), 0.02, 0.16, 0.05, (0.25, 0.30)),
+    "stopwatch": Usual("cylinder", (0.06, 0.06, 0.03), 0.01, 0.10, 0.1, (0.20, 0.40)),
+    "box": _BOX, "packet": _BOX, "cartridge": _BOX, "tray": _BOX, "battery": _BOX,
+    "book": Usual("box", (0.15, 0.21, 0.03), 0.005, 0.35, 0.3, (0.40, 0.60)),
+    "radio": Usual("box", (0.07, 0.12, 0.12), 0.03, 0.40, 0.5, (0.40, 0.35)),
+    "stapler": Usual("box", (0.05, 0.13, 0.06), 0.02, 0.25, 0.3, (0.40, 0.25)),
+    "hole punch": Usual("box", (0.08, 0.11, 0.08), 0.03, 0.30, 0.4, (0.30, 0.25)),
+    "lunch box": Usual("box", (0.10, 0.14, 0.08), 0.04, 0.30, 0.3, (0.35, 0.25)),
+    "remote control": Usual("box", (0.05, 0.16, 0.025), 0.01, 0.26, 0.1, (0.60, 0.35)),
+    "wallet": Usual("box", (0.09, 0.11, 0.03), 0.01, 0.22, 0.15, (0.25, 0.40)),
+    "pencil case": Usual("box", (0.07, 0.19, 0.05), 0.02, 0.28, 0.2, (0.50, 0.30)),
+    "tape measure": Usual("box", (0.05, 0.07, 0.05), 0.02, 0.14, 0.25, (0.20, 0.30)),
     "bowl": _BOWL, "plate": Usual("cylinder", (0.22, 0.22, 0.025), 0.01, 0.32), "saucer": _BOWL,
     "fruit": _FRUIT, "apple": _FRUIT, "orange": _FRUIT, "lemon": _FRUIT, "pear": _FRUIT,
     "tomato": _FRUIT, "peach": _FRUIT, "potato": _FRUIT,
     "fork": _CUTLERY, "knife": _CUTLERY, "spoon": _CUTLERY, "marker": _CUTLERY,
 }  # fmt: skip
-"""By category; of several words ("wine bottle") the last one says what it is."""
+"""By category; of several words ("blue pill bottle") the last ones say what it is."""
 
 
 def usual(category: str) -> Usual:
     """What things of a category are usually like; `UNKNOWN` where the word says nothing."""
     words = category.replace("_", " ").split()
-    return USUAL.get(category) or (USUAL.get(words[-1], UNKNOWN) if words else UNKNOWN)
+    known = (USUAL.get(" ".join(words[first:])) for first in range(len(words)))
+    return next((one for one in known if one is not None), UNKNOWN)

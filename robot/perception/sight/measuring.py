@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot.messages import Place
+from robot.perception.sight.form import roundness
 from robot.perception.things.eyes import SeenThing
 from robot.perception.things.inputs import Sight
 from robot.se3 import Array
@@ -55,6 +56,7 @@ class Measured(NamedTuple):
         yaw_rad: about the vertical, of the smallest rectangle around it.
         foot_m: height of what it stands on.
         is_whole: whether nothing hides a part of it.
+        roundness: how much likelier it is round than a box, in logarithms.
     """
 
     seen: SeenThing
@@ -66,6 +68,7 @@ class Measured(NamedTuple):
     yaw_rad: float
     foot_m: float
     is_whole: bool
+    roundness: float = 0.0
 
 
 def measured(
@@ -114,9 +117,10 @@ def measured(
     if not is_whole:
         covariance_W = covariance_W + np.eye(3) * 0.02**2
     sigma_m = pixel_m + noise_m + (0.0 if is_whole else 0.02)
+    form = roundness(above, np.array(view.X_WC.p[:2]), noise_m=noise_m) if is_whole else 0.0
     return Measured(
         thing, p_W, covariance_W, (along_m, across_m, high_m), width_m, sigma_m, yaw_rad, foot_m,
-        is_whole,
+        is_whole, form,
     )  # fmt: skip
 
 

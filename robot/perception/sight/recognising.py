@@ -24,10 +24,12 @@ ENOUGH, ENOUGH_AT_ONCE = 0.9, 2.2
 """Likeness from which on a thing is believed to be that, after two looks and after one."""
 CLEARER = 0.7
 """By so much it must be likelier than the next thing that nobody has named."""
-STAYS = 2.0
+STAYS = 1.2
 """What speaks for the thing that has the name."""
 LEAST = -1.0
 """Below, the name is taken away again."""
+NAMED = 0.2
+"""What one more name takes: a thing that was told may well be somewhere else."""
 NO_WAY = -50.0
 
 
@@ -69,8 +71,7 @@ class Recogniser:
             [[STAYS * (self._number.get(info.id) == track.number) for track in tracks]
              for info in self._told]
         )  # fmt: skip
-        rows, columns = linear_sum_assignment(-np.maximum(fits + stays, NO_WAY))
-        chosen = dict(zip(rows.tolist(), columns.tolist(), strict=True))
+        chosen, _ = _best(fits + stays)
         found: dict[str, Seen] = {}
         for row, info in enumerate(self._told):
             column = chosen.get(row)
@@ -102,7 +103,19 @@ class Recogniser:
         if fits[row, column] < ENOUGH:
             return False
         free = [k for k in range(fits.shape[1]) if k not in set(chosen.values())]
-        return all(fits[row, column] - fits[row, k] > CLEARER for k in free)
+        if any(fits[row, column] - fits[row, k] <= CLEARER for k in free):
+            return False
+        return self._else(fits, row, column) > CLEARER
+
+    def _else(self, worth: np.ndarray, row: int, column: int) -> float:
+        """How much worse the best names are with which a thing is not the told one.
+
+        Those that were told alike may change places.
+        """
+        alike = [k for k, info in enumerate(self._told) if _are_alike(info, self._told[row])]
+        without = worth.copy()
+        without[alike, column] = NO_WAY
+        return _best(worth)[1] - _best(without)[1]
 
     def _fit(self, info: ObjectInfo, track: Seen) -> float:
         plural = self._plurals.get(info.category, f"{info.category}s")
@@ -111,3 +124,16 @@ class Recogniser:
         fit = likeness(track, info, plural, self._namer)
         is_first = track.looks < 2 and self._number.get(info.id) != track.number
         return fit - (ENOUGH_AT_ONCE - ENOUGH) if is_first else fit
+
+
+def _are_alike(one: ObjectInfo, other: ObjectInfo) -> bool:
+    return (one.category, one.color) == (other.category, other.color)
+
+
+def _best(worth: np.ndarray) -> tuple[dict[int, int], float]:
+    """The best names, track by told thing, and what they are worth in all; none has to be given."""
+    over = np.maximum(worth - NAMED, 0.0)
+    rows, columns = linear_sum_assignment(-over)
+    named = over[rows, columns] > 0.0
+    chosen = dict(zip(rows[named].tolist(), columns[named].tolist(), strict=True))
+    return chosen, float(over[rows, columns].sum())

@@ -78,6 +78,11 @@ class Seer:
         """What is known of every named thing by now: its size, once it was seen."""
         return tuple(self._infos.values())
 
+    @property
+    def named(self) -> dict[str, Seen]:
+        """What has a name by now, by the thing's id."""
+        return dict(self._named)
+
     def forget(self) -> None:
         """Forget where things are: the robot was elsewhere than it thought."""
         self._tracks, self._named = Tracks(), {}

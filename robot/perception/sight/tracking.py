@@ -30,6 +30,9 @@ EMPTY_M, EMPTY_SHARE = 0.04, 0.8
 is not there."""
 MISSES = 3
 """So often in a row, and it is gone."""
+ASIDE_M = 0.025
+"""So far aside a thing may be seen from elsewhere, as the robot errs in where it is itself: what is
+there counts for it."""
 EDGE_PX = 8
 FORGET_ONCE_S = 4.0
 """What was seen only once may have been nothing."""
@@ -64,6 +67,8 @@ class Seen:
     _weight: float = 0.0
     _count: float = 0.0
     _coloured: float = 0.0
+    _round: float = 0.0
+    _warm: float = 0.0
     _colours: dict[str, float] = field(default_factory=dict[str, float])
 
     def add(self, found: Measured, now_s: float) -> None:
@@ -95,6 +100,7 @@ class Seen:
         self._sizes = FADE * self._sizes + weight * np.log(np.array(seen.size_m))
         self._weight = FADE * self._weight + weight
         self._count = FADE * self._count + 1.0
+        self._round = FADE * self._round + weight * found.roundness
         self._vote_colours(seen, weight)
 
     def add_colours(self, seen: SeenThing) -> None:
@@ -105,6 +111,7 @@ class Seen:
         self._colours = {word: FADE * counted for word, counted in self._colours.items()}
         self.colour_looks += 1
         self._coloured = FADE * self._coloured + weight
+        self._warm = FADE * self._warm + weight * seen.warmth
         for word, counts in zip(seen.colours, (1.0, 0.6), strict=False):
             self._colours[word] = self._colours.get(word, 0.0) + weight * counts
 
@@ -122,9 +129,20 @@ class Seen:
         x, y, z = np.exp(self._sizes / max(self._weight, 1e-9)).tolist()
         return x, y, z
 
+    @property
+    def roundness(self) -> float:
+        """How much likelier it is round than a box, in logarithms, over all looks."""
+        power = self._count / (SHARED * self._count + 1.0 - SHARED)
+        return self._round / max(self._weight, 1e-9) * power
+
     def colour_share(self, word: str) -> float:
         """How much of what was seen of it has a colour, 0 to 1."""
         return self._colours.get(word, 0.0) / max(self._coloured, 1e-9)
+
+    @property
+    def warmth(self) -> float:
+        """How much of the hue of cream it has, over all looks."""
+        return self._warm / max(self._coloured, 1e-9)
 
     @property
     def colours(self) -> tuple[str, ...]:
@@ -210,12 +228,15 @@ def _is_empty(view: Sight, track: Seen) -> bool:
     column = round(view.focal_px * x / z + view.centre_px[0])
     row = round(view.focal_px * y / z + view.centre_px[1])
     least_m: float = min(track.size_m.tolist())
-    reach = max(1, round(0.25 * view.focal_px * least_m / z))
+    sigma_m = math.sqrt(float(track.covariance_W[0, 0] + track.covariance_W[1, 1]))
+    high = max(1, round(0.25 * view.focal_px * least_m / z))
+    wide = max(1, round(view.focal_px * (0.25 * least_m + ASIDE_M + sigma_m) / z))
     height, width = view.depth_m.shape
-    edge = EDGE_PX + reach
-    if not (edge <= column < width - edge and edge <= row < height - edge):
+    if not (EDGE_PX + wide <= column < width - EDGE_PX - wide):
         return False
-    patch = view.depth_m[row - reach : row + reach + 1, column - reach : column + reach + 1]
+    if not (EDGE_PX + high <= row < height - EDGE_PX - high):
+        return False
+    patch = view.depth_m[row - high : row + high + 1, column - wide : column + wide + 1]
     there = patch[patch > 0.0]
     behind = int(np.count_nonzero(there > z + EMPTY_M))
     return len(there) > 0.5 * patch.size and behind > EMPTY_SHARE * len(there)

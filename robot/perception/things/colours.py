@@ -25,6 +25,9 @@ colours too: chosen on pictures that nothing is judged on."""
 DIM, CLIPPED = 0.05, 0.98
 """Pixels whose brightest colour is between these tell of the light."""
 LEAST_LIT = 1000
+WARM_DEG, LEAST_PLAIN = 40.0, 12
+"""The hue of cream, between orange and yellow; and pixels without a colour that tell of it, as
+those of a label do not."""
 
 Gain = NDArray[np.float32]
 
@@ -77,6 +80,28 @@ def words(
     if shares[best[1]] > SECOND:
         told.append(WORDS[int(best[1])])
     return tuple(told)
+
+
+def warmth(
+    colours: NDArray[np.uint8], pixels: NDArray[np.bool_], gain: Gain | None = None
+) -> float:
+    """How much of the hue of cream a thing has: 0 white, 0.1 cream, below 0 a bluish grey.
+
+    Args:
+        colours: of the picture, red, green, blue, shape (height, width, 3).
+        pixels: which show the thing, at least one.
+        gain: of red, green and blue, as `white_balance` has it; none: the colours as they are.
+    """
+    rgb = colours[pixels].astype(np.float32) / np.float32(255.0)
+    if gain is not None:
+        rgb = np.minimum(rgb * gain, np.float32(1.0))
+    high, low = rgb.max(axis=1), rgb.min(axis=1)
+    saturation = (high - low) / np.maximum(high, 1e-3)
+    plain = (saturation < GREY) & (high > BLACK)
+    if np.count_nonzero(plain) < LEAST_PLAIN:
+        return 0.0
+    turn = np.radians(_hues(rgb[plain], high[plain], low[plain]) - WARM_DEG)
+    return float(np.median(saturation[plain] * np.cos(turn)))
 
 
 def _hues(

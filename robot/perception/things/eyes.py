@@ -37,6 +37,7 @@ class SeenThing(NamedTuple):
         upright: how likely its own axis is up.
         pixels: which show it, shape (height, width).
         range_m: from the camera.
+        warmth: how much of the hue of cream it has, which tells cream from white (`colours`).
     """
 
     name: Name
@@ -48,6 +49,7 @@ class SeenThing(NamedTuple):
     upright: float
     pixels: NDArray[np.bool_]
     range_m: float
+    warmth: float = 0.0
 
     @property
     def words(self) -> str:
@@ -137,4 +139,5 @@ class Eyes:
             upright=float(1.0 / (1.0 + np.exp(-float(row[count + 9])))),
             pixels=one.pixels,
             range_m=cut.range_m,
+            warmth=colours.warmth(seen.colours, one.pixels, gain),
         )

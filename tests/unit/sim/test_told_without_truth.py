@@ -64,3 +64,4 @@ def test_a_name_says_what_such_things_are_usually_like():
     assert usual("wine bottle") == usual("bottle")
     assert usual("") == usual("gizmo") == UNKNOWN
     assert usual("cup").kind == "cylinder" and usual("cereal box").kind == "box"
+    assert usual("blue pill bottle") == usual("pill_bottle") != usual("bottle")

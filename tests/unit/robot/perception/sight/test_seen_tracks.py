@@ -76,3 +76,25 @@ def test_what_is_beside_the_picture_is_not_missed():
     tracks = Tracks()
     tracks.add([measured((1.0, 3.0, 0.76))], 0.0)
     assert tracks.miss(view(2.0), [], 0.2) == []
+
+
+def test_what_is_seen_a_little_aside_as_the_robot_errs_in_where_it_is_is_not_gone():
+    tracks = Tracks()
+    for k in range(3):
+        tracks.add([measured()], 0.2 * k)
+    depth_m = np.full((60, 80), 1.6, np.float32)
+    depth_m[20:40, 36:50] = 0.96  # 7 cm wide, its middle 2 cm beside where it is believed to be
+    seen = sight(picture_of(depth_m), AHEAD)
+    assert seen is not None
+    for k in range(2 * MISSES):
+        tracks.miss(seen, [], 1.0 + 0.2 * k)
+    assert len(tracks.things) == 1
+
+
+def test_what_looks_round_again_and_again_is_surely_round():
+    tracks = Tracks()
+    for k in range(6):
+        (track,) = tracks.add([measured()._replace(roundness=1.0)], 0.2 * k)
+        if not k:
+            first = track.roundness
+    assert track.roundness > first > 0.0

@@ -152,6 +152,22 @@ def test_a_white_thing_in_warm_light_is_white_and_a_red_one_stays_red():
     assert colours.words(warm, red, gain) == ("red",)
 
 
+def test_cream_is_warmer_than_white_and_a_label_says_nothing_of_that():
+    every = np.ones((10, 10), np.bool_)
+
+    def of(rgb) -> np.ndarray:
+        return np.tile(np.array(rgb, np.uint8), (10, 10, 1))
+
+    cream, white, steel = of((230, 222, 204)), of((237, 237, 235)), of((150, 155, 163))
+    assert colours.warmth(cream, every) > 0.08
+    assert abs(colours.warmth(white, every)) < 0.03
+    assert colours.warmth(steel, every) < -0.03
+    labelled = white.copy()
+    labelled[:7] = (237, 122, 31)
+    assert abs(colours.warmth(labelled, every)) < 0.03
+    assert colours.warmth(of((237, 122, 31)), every) == 0.0, "nothing of it is plain"
+
+
 def test_a_dark_picture_says_nothing_of_the_light():
     assert colours.white_balance(np.zeros((60, 80, 3), np.uint8)).tolist() == [1.0, 1.0, 1.0]
 
