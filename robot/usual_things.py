@@ -36,7 +36,9 @@ UNKNOWN = Usual("cylinder", (0.07, 0.07, 0.10), 0.01, 0.45, vary=(0.40, 0.60))
 
 _CUP = Usual("cylinder", (0.075, 0.075, 0.10), 0.045, 0.16, vary=(0.15, 0.20))
 _BOTTLE = Usual("cylinder", (0.065, 0.065, 0.20), 0.04, 0.34, 0.3, (0.18, 0.22))
-_CAN = Usual("cylinder", (0.07, 0.07, 0.11), 0.03, 0.22, 0.3, (0.15, 0.20))
+_MUG = Usual("cylinder", (0.082, 0.082, 0.095), 0.045, 0.16, 0.3, (0.10, 0.12))
+_CAN = Usual("cylinder", (0.068, 0.068, 0.113), 0.03, 0.22, 0.3, (0.10, 0.15))
+_TIN = Usual("cylinder", (0.08, 0.08, 0.11), 0.03, 0.22, 0.3, (0.18, 0.22))
 _SPRAY = Usual("cylinder", (0.06, 0.06, 0.18), 0.04, 0.28, 0.3, (0.18, 0.22))
 _PAINT = Usual("cylinder", (0.09, 0.09, 0.11), 0.05, 0.24, 0.8, (0.20, 0.25))
 _JAR = Usual("cylinder", (0.075, 0.075, 0.105), 0.04, 0.22, 0.4, (0.18, 0.25))
@@ -46,14 +48,14 @@ _FRUIT = Usual("cylinder", (0.07, 0.07, 0.07), 0.03, 0.22, vary=(0.25, 0.25))
 _CUTLERY = Usual("box", (0.02, 0.18, 0.015), 0.003, 0.36, 0.05, (0.60, 0.50))
 _SMALL = Usual("cylinder", (0.05, 0.05, 0.09), 0.02, 0.16, 0.1, (0.25, 0.30))
 USUAL: dict[str, Usual] = {
-    "cup": _CUP, "mug": _CUP, "tumbler": _CUP, "beaker": _CUP,
+    "cup": _CUP, "mug": _MUG, "tumbler": _CUP, "beaker": _CUP,
     "glass": Usual("cylinder", (0.07, 0.07, 0.12), 0.045, 0.25, vary=(0.18, 0.25)),
     "bottle": _BOTTLE, "thermos": Usual("cylinder", (0.075, 0.075, 0.25), 0.05, 0.36, 0.5,
                                         (0.18, 0.20)),
     "dispenser": Usual("cylinder", (0.07, 0.07, 0.18), 0.04, 0.28, 0.4, (0.20, 0.22)),
     "pill bottle": _SMALL, "carton": Usual("box", (0.07, 0.07, 0.20), 0.05, 0.32, 0.6,
                                            (0.20, 0.20)),
-    "can": _CAN, "tin": _CAN, "jar": _JAR, "paint jar": _JAR, "spray can": _SPRAY,
+    "can": _CAN, "tin": _TIN, "jar": _JAR, "paint jar": _JAR, "spray can": _SPRAY,
     "paint can": _PAINT, "paint tin": _PAINT, "shaker": _SMALL,
     "vase": Usual("cylinder", (0.09, 0.09, 0.20), 0.05, 0.40, 0.5, (0.30, 0.30)),
     "candle": Usual("cylinder", (0.06, 0.06, 0.12), 0.02, 0.32, 0.3, (0.25, 0.40)),

@@ -22,6 +22,9 @@ DOUBT, ANY = 0.12, 0.35
 OTHER_KIND = -4.0
 """A thing that is surely of another kind."""
 LOOKS_TO_BE_SURE = 3
+FEW = 0.5
+"""Looks with all pixels that one wants: what a kind says after so few counts half. From 1.8 m a
+plain can was "a mug" in two looks, and the mug beside it got its name."""
 _BIT = 0.12
 ALIKE: dict[str, dict[str, float]] = {
     "red": {"orange": 0.2, "brown": _BIT, "pink": 0.2, "purple": _BIT},
@@ -46,7 +49,7 @@ says at most."""
 CREAM = ("cream", "beige", "ivory")
 SAME_AS = {"grey": "gray", "silver": "gray", "steel": "gray", "charcoal": "black", "cream": "white",
            "beige": "white", "ivory": "white", "violet": "purple", "turquoise": "teal"}  # fmt: skip
-PER_OCTAVE, LEAST_SIZE, MOST_SIZE = 4.0, -4.0, 0.5
+PER_OCTAVE, LEAST_SIZE, MOST_SIZE = 4.0, -4.0, 1.0
 """What each factor of two beyond sizes that such things may have takes away; and at most."""
 USUAL_SIZE = 1.5
 """What a usual size says for a thing whose size is well known: that it has one says no more than
@@ -122,7 +125,7 @@ def _kind(track: Seen, category: str, plural: str, namer: Knowledge) -> float:
         families = {classes.families[k] for k in mine}
         if (known >= 0 and known not in mine) or (known < 0 and name.family not in families):
             return OTHER_KIND
-    return math.log((fits + DOUBT) / ANY)
+    return math.log((fits + DOUBT) / ANY) * track.support / (track.support + FEW)
 
 
 def _colour(track: Seen, told: str) -> float:

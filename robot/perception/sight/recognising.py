@@ -24,12 +24,14 @@ ENOUGH, ENOUGH_AT_ONCE = 0.9, 2.2
 """Likeness from which on a thing is believed to be that, after two looks and after one."""
 CLEARER = 0.7
 """By so much it must be likelier than the next thing that nobody has named."""
-STAYS = 1.2
+STAYS = 0.8
 """What speaks for the thing that has the name."""
 LEAST = -1.0
 """Below, the name is taken away again."""
 NAMED = 0.2
 """What one more name takes: a thing that was told may well be somewhere else."""
+HARDLY = 0.01
+"""What a name is worth where it is, as long as nothing better comes and it is not taken away."""
 NO_WAY = -50.0
 
 
@@ -71,7 +73,8 @@ class Recogniser:
             [[STAYS * (self._number.get(info.id) == track.number) for track in tracks]
              for info in self._told]
         )  # fmt: skip
-        chosen, _ = _best(fits + stays)
+        keeps = (stays > 0.0) & (fits > LEAST)
+        chosen, _ = _best(np.where(keeps, np.maximum(fits + stays, NAMED + HARDLY), fits + stays))
         found: dict[str, Seen] = {}
         for row, info in enumerate(self._told):
             column = chosen.get(row)

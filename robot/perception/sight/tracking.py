@@ -130,6 +130,11 @@ class Seen:
         return x, y, z
 
     @property
+    def support(self) -> float:
+        """How many looks with all pixels (`SURE_PX`) it was seen in, the last ones counting most."""
+        return self._weight
+
+    @property
     def roundness(self) -> float:
         """How much likelier it is round than a box, in logarithms, over all looks."""
         power = self._count / (SHARED * self._count + 1.0 - SHARED)

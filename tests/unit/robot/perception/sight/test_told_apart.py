@@ -44,7 +44,7 @@ def test_a_tall_one_is_the_bottle_and_no_can():
 
 def test_a_round_one_is_the_mug_and_no_box():
     mug, box = told("mug", "mug", "green"), told("tea", "box", "green")
-    size_m = (0.075, 0.075, 0.092)
+    size_m = (0.07, 0.07, 0.09)
     round_one = plain(colour="green", size_m=size_m, roundness=2.0)
     square = plain(colour="green", size_m=size_m, roundness=-1.7)
     assert names([round_one], mug, box) == {"mug": HERE}
