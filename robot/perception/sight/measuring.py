@@ -40,6 +40,11 @@ NEAR_M = 1.3
 ONE_FACE = 0.35
 """So thin a rectangle is one face of a thing, of which neither top nor another face is seen."""
 TURNS = np.radians(np.arange(0.0, 90.0, 3.0))
+ABOVE_PX, GOES_ON, SAME_DEPTH_M, STEEP = 3, 0.5, 0.006, 2.0
+"""So far above the top of what was found nothing of the thing is left, where it was found whole: in
+most columns depth steps back there, by more than noise and than it did in the rows below."""
+PIECE_M = 0.08
+"""1 sigma of what is left of a thing of which a piece was found."""
 PARTLY = 0.12
 """Of the outline of what is seen: where so much borders on what is nearer, the rest is hidden."""
 
@@ -55,7 +60,7 @@ class Measured(NamedTuple):
         size_sigma_m: of each of them.
         yaw_rad: about the vertical, of the smallest rectangle around it.
         foot_m: height of what it stands on.
-        is_whole: whether nothing hides a part of it.
+        is_whole: whether nothing hides a part of it, and it was found whole.
         roundness: how much likelier it is round than a box, in logarithms.
     """
 
@@ -96,7 +101,8 @@ def measured(
     above = points[points[:, 2] - foot_m > max(CLEAR_M, CLEAR_SIGMAS * noise_m)]
     if len(above) < LEAST_PX:
         return None
-    is_whole = _outline_hidden(view, pixels, hidden, depth_m) < PARTLY
+    goes_on = _goes_on(view, pixels, noise_m) > GOES_ON
+    is_whole = not goes_on and _outline_hidden(view, pixels, hidden, depth_m) < PARTLY
     pixel_m = depth_m / view.focal_px
     top_m = float(np.quantile(above[:, 2], 1.0 - TRIM)) - foot_m
     p_W, covariance_W, width_m, deep_m = _from_points(
@@ -117,6 +123,9 @@ def measured(
     if not is_whole:
         covariance_W = covariance_W + np.eye(3) * 0.02**2
     sigma_m = pixel_m + noise_m + (0.0 if is_whole else 0.02)
+    if goes_on:
+        covariance_W = covariance_W + np.diag([0.0, 0.0, PIECE_M**2])
+        sigma_m += PIECE_M
     form = roundness(above, np.array(view.X_WC.p[:2]), noise_m=noise_m) if is_whole else 0.0
     return Measured(
         thing, p_W, covariance_W, (along_m, across_m, high_m), width_m, sigma_m, yaw_rad, foot_m,
@@ -222,3 +231,22 @@ def _outline_hidden(
     rim = grown & ~pixels
     nearer = (view.depth_m > 0.0) & (view.depth_m < depth_m - 0.06)
     return float((hidden | nearer)[rim].mean()) if rim.any() else 0.0
+
+
+def _goes_on(view: Sight, pixels: NDArray[np.bool_], noise_m: float) -> float:
+    """Share of the columns of a thing in which it goes on above what was found of it.
+
+    From very near only a piece of a large thing may be found, which is no smaller thing.
+    """
+    columns = np.flatnonzero(pixels.any(axis=0))
+    tops = pixels[:, columns].argmax(axis=0)
+    fits = (tops >= ABOVE_PX) & (tops + ABOVE_PX < pixels.shape[0])
+    columns, tops = columns[fits], tops[fits]
+    if not len(columns):
+        return 0.0
+    above = view.depth_m[tops - ABOVE_PX, columns]
+    there = view.depth_m[tops, columns]
+    below = view.depth_m[tops + ABOVE_PX, columns]
+    known = (above > 0.0) & (there > 0.0) & (below > 0.0)
+    step_m = STEEP * np.abs(there - below) + SAME_DEPTH_M + STEEP * noise_m
+    return float((known & (np.abs(above - there) < step_m)).mean())

@@ -131,7 +131,7 @@ class Seen:
 
     @property
     def support(self) -> float:
-        """How many looks with all pixels (`SURE_PX`) it was seen in, the last ones counting most."""
+        """How many looks with all pixels (`SURE_PX`) it was seen in; the last ones count most."""
         return self._weight
 
     @property

@@ -48,8 +48,11 @@ def looked_at(thing: str, *, away_m: float = 0.6, up_m: float = 0.4, hand: bool 
     return image, SE3.from_rotation(R, eye), pixels, hidden
 
 
-def taken(thing: str, places=(TABLE,), **how):
+def taken(thing: str, places=(TABLE,), *, piece: float = 1.0, **how):
+    """What is measured of a thing, of which only the lowest rows were found if it is a piece."""
     image, X_WC, pixels, hidden = looked_at(thing, **how)
+    rows = np.flatnonzero(pixels.any(axis=1))
+    pixels[: rows[-1] - round(piece * len(rows))] = False
     middle = ((PINHOLE.width - 1) / 2, (PINHOLE.height - 1) / 2)
     image = msgspec.structs.replace(
         image, focal_px=(PINHOLE.focal_px, PINHOLE.focal_px), centre_px=middle
@@ -93,3 +96,13 @@ def test_half_behind_the_hand_it_is_not_whole_and_much_less_sure():
 
 def test_what_stands_on_nothing_that_is_known_is_no_thing():
     assert taken("cup", places=()) is None
+
+
+@pytest.mark.parametrize("away_m", [0.45, 0.7])
+def test_a_piece_of_a_thing_is_no_smaller_thing(away_m):
+    """The lower half of a bottle, up to its label, was taken for a can."""
+    whole, piece = taken("cup", away_m=away_m), taken("cup", away_m=away_m, piece=0.5)
+    assert whole is not None and piece is not None
+    assert whole.is_whole and not piece.is_whole
+    assert whole.size_sigma_m < 0.02 < 0.05 < piece.size_sigma_m
+    assert piece.covariance_W[2, 2] > 10.0 * whole.covariance_W[2, 2]
