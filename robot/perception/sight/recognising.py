@@ -16,7 +16,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from robot.messages import ObjectInfo
+from robot.messages import ObjectInfo, Place
+from robot.perception.sight.belonging import belonging
 from robot.perception.sight.likeness import Knowledge, likeness, other_colour
 from robot.perception.sight.tracking import Seen
 
@@ -48,12 +49,18 @@ class Recogniser:
         self._namer = namer
         self._told: tuple[ObjectInfo, ...] = ()
         self._plurals: Mapping[str, str] = {}
+        self._places: tuple[Place, ...] = ()
         self._number: dict[str, int] = {}
         self.mistaken: dict[str, str] = {}
 
-    def tell(self, told: tuple[ObjectInfo, ...], plurals: Mapping[str, str]) -> None:
-        """What things there are: by name, category and colour."""
-        self._told, self._plurals = told, plurals
+    def tell(
+        self,
+        told: tuple[ObjectInfo, ...],
+        plurals: Mapping[str, str],
+        places: tuple[Place, ...] = (),
+    ) -> None:
+        """What things there are, by name, category and colour, and what they may stand on."""
+        self._told, self._plurals, self._places = told, plurals, places
 
     def number(self, name: str) -> int | None:
         """The track that has a name."""
@@ -124,7 +131,7 @@ class Recogniser:
         plural = self._plurals.get(info.category, f"{info.category}s")
         if other_colour(track, info.color):
             return NO_WAY
-        fit = likeness(track, info, plural, self._namer)
+        fit = likeness(track, info, plural, self._namer) + belonging(track, info, self._places)
         is_first = track.looks < 2 and self._number.get(info.id) != track.number
         return fit - (ENOUGH_AT_ONCE - ENOUGH) if is_first else fit
 

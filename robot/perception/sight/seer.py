@@ -72,7 +72,7 @@ class Seer:
         told = tuple(one.told() for one in world_map.objects)
         self._told = {one.id: one for one in told}
         self._infos = self._told | self._infos
-        self._recogniser.tell(told, world_map.categories)
+        self._recogniser.tell(told, world_map.categories, world_map.places)
 
     def infos(self) -> tuple[ObjectInfo, ...]:
         """What is known of every named thing by now: its size, once it was seen."""

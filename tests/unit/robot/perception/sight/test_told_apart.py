@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from robot.messages import ObjectInfo, Shape
+from robot.messages import ObjectInfo, Place, Shape
 from robot.perception.sight.likeness import Knowledge
 from robot.perception.sight.measuring import Measured
 from robot.perception.sight.recognising import Recogniser
 from robot.perception.sight.tracking import Tracks
+from robot.se3 import SE3
 from tests.fakes.things_in_view import CLASSES, SURE, measured
 
 HERE, THERE = (1.0, 0.0, 0.76), (1.4, 0.3, 0.76)
@@ -93,3 +94,20 @@ def test_cream_and_white_are_told_apart_by_how_warm_they_look():
     assert names([seen(0.10)], rice, sugar) == {"rice": HERE}
     assert names([seen(0.00)], rice, sugar) == {"sugar": HERE}
     assert names([seen(0.05)], rice, sugar, looks=8) == {}
+
+
+def test_of_two_that_it_may_be_it_is_the_one_that_belongs_where_it_stands():
+    paint, cup = told("red paint can", "paint can", "red"), told("red cup", "cup", "red")
+    seen = plain(colour="red", size_m=(0.083, 0.083, 0.108))
+
+    def name_on(place: str) -> set[str]:
+        at = Place(id="p", name=place, X_WP=SE3((1.0, 0.0, seen.foot_m)), size_m=(0.4, 1.0))
+        recogniser, tracks, found = Recogniser(Knowledge(CLASSES, SURE, SURE)), Tracks(), {}
+        recogniser.tell((paint, cup), {}, (at,))
+        for k in range(4):
+            tracks.add([seen], 0.2 * k)
+            found = recogniser.named(tracks.things)
+        return set(found)
+
+    assert name_on("sideboard") == set()
+    assert name_on("paint rack") == {"red paint can"}
