@@ -49,13 +49,9 @@ says at most."""
 CREAM = ("cream", "beige", "ivory")
 SAME_AS = {"grey": "gray", "silver": "gray", "steel": "gray", "charcoal": "black", "cream": "white",
            "beige": "white", "ivory": "white", "violet": "purple", "turquoise": "teal"}  # fmt: skip
-PER_OCTAVE, LEAST_SIZE, MOST_SIZE = 4.0, -4.0, 1.0
-"""What each factor of two beyond sizes that such things may have takes away; and at most."""
-USUAL_SIZE = 1.5
-"""What a usual size says for a thing whose size is well known: that it has one says no more than
-`MOST_SIZE`, as a size makes up for no kind and no colour."""
-ANY_SIZE_M, ANY_VARY = (0.075, 0.11), (0.45, 0.60)
-"""Width and height of any thing that a hand can take, and by which share they vary."""
+FITS, PER_OCTAVE, LEAST_SIZE = 0.5, 4.0, -4.0
+"""What a usual size says, what each factor of two beyond sizes that such things may have takes
+away, and at most."""
 LEAST_ERROR = 0.06
 """A share of a size that eyes are wrong by at least."""
 MOST_FORM = 2.5
@@ -163,7 +159,7 @@ def other_colour(track: Seen, told: str) -> str:
 
 
 def _size(track: Seen, category: str) -> float:
-    """By how a thing's width and height go with those of such things, and of any thing."""
+    """By how a thing's width and height go with those of such things."""
     known = usual(category)
     longest, shortest = float(max(track.size_m)), float(min(track.size_m))
     over = max(longest / (known.most_m + MARGIN_M), (known.least_m) / (shortest + MARGIN_M))
@@ -174,17 +170,14 @@ def _size(track: Seen, category: str) -> float:
     if lies or known is UNKNOWN_THING:
         return 0.0
     told_wide_m = 0.5 * (known.size_m[0] + known.size_m[1])
-    found = 0.0
-    for seen_m, told_m, vary, any_m, any_vary in (
-        (wide_m, told_wide_m, known.vary[0], ANY_SIZE_M[0], ANY_VARY[0]),
-        (high_m, known.size_m[2], known.vary[1], ANY_SIZE_M[1], ANY_VARY[1]),
+    found = FITS
+    for seen_m, told_m, vary in (
+        (wide_m, told_wide_m, known.vary[0]),
+        (high_m, known.size_m[2], known.vary[1]),
     ):
         error = max(LEAST_ERROR, track.size_sigma_m / max(seen_m, 1e-3))
-        mine, anything = math.hypot(vary, error), math.hypot(any_vary, error)
-        found += math.log(anything / mine)
-        found += 0.5 * (math.log(seen_m / any_m) / anything) ** 2
-        found -= 0.5 * (math.log(seen_m / told_m) / mine) ** 2
-    return min(max(found - USUAL_SIZE, LEAST_SIZE), MOST_SIZE)
+        found -= 0.5 * (math.log(seen_m / told_m) / math.hypot(vary, error)) ** 2
+    return max(found, LEAST_SIZE)
 
 
 def _form(track: Seen, category: str) -> float:
