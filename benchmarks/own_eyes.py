@@ -120,9 +120,8 @@ class Home:
         flat_m = math.hypot(to_W[0] - site.xpos[0], to_W[1] - site.xpos[1])
         pitch = math.atan2(float(site.xpos[2]) - to_W[2] - 0.05, flat_m)
         plant.pose({"head_pitch": min(max(pitch, -0.3), 0.8)})
-        error = SE3.from_xy_yaw(
-            *rng.normal(0.0, PLACE_M, 2).tolist(), float(rng.normal(0.0, TURN_RAD))
-        )
+        dx_m, dy_m = rng.normal(0.0, PLACE_M, 2).tolist()
+        error = SE3.from_xy_yaw(dx_m, dy_m, float(rng.normal(0.0, TURN_RAD)))
         middle = SE3((float(at_W[0]), float(at_W[1]), 0.0))
         off = middle @ error @ middle.inverse()
         for _ in range(LOOKS):

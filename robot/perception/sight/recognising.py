@@ -99,7 +99,7 @@ class Recogniser:
         for id, number in before.items():
             other = owners.get(number, id)
             if other != id:
-                found[id] = f"the {told[other].full_name}"
+                found[id] = told[other].full_name
             elif id not in self._number:
                 found[id] = other_colour(tracks[number], told[id].color)
         return {id: what for id, what in found.items() if what}
