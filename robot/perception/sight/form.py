@@ -8,7 +8,6 @@ other, in noise, is the evidence. What is seen of a top says nothing of that and
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from robot.se3 import Array
 
@@ -72,10 +71,10 @@ def _profile(points: Array, eye: Array) -> tuple[Array, Array, Array, float] | N
     half_m = max(0.5 * (top - low), 1e-3)
     place = (across - 0.5 * (low + top)) / half_m
     edges = np.linspace(-REACH, REACH, BINS + 1)
-    bins: NDArray[np.intp] = np.digitize(place, edges) - 1
+    bins = np.searchsorted(edges, place, side="right") - 1
     found: list[tuple[float, float, int]] = []
     for number in range(BINS):
-        mine: NDArray[np.bool_] = bins == number
+        mine = bins == number
         count = int(np.count_nonzero(mine))
         if count >= LEAST_POINTS:
             middle = float(place[mine].mean())
