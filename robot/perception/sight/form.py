@@ -7,7 +7,10 @@ other, in noise, is the evidence. What is seen of a top says nothing of that and
 
 from __future__ import annotations
 
+from typing import cast
+
 import numpy as np
+from numpy.typing import NDArray
 
 from robot.se3 import Array
 
@@ -71,7 +74,7 @@ def _profile(points: Array, eye: Array) -> tuple[Array, Array, Array, float] | N
     half_m = max(0.5 * (top - low), 1e-3)
     place = (across - 0.5 * (low + top)) / half_m
     edges = np.linspace(-REACH, REACH, BINS + 1)
-    bins = np.searchsorted(edges, place, side="right") - 1
+    bins = cast("NDArray[np.intp]", np.searchsorted(edges, place, side="right")) - 1
     found: list[tuple[float, float, int]] = []
     for number in range(BINS):
         mine = bins == number
