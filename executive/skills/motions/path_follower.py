@@ -44,6 +44,11 @@ class Stretch:
         """Length of the whole run."""
         return self.at_m[-1]
 
+    @property
+    def top_m_s(self) -> float:
+        """The greatest of its cruising speeds."""
+        return max(self._speeds_m_s)
+
     def stance(self, along_m: float) -> Stance:
         """The stance at a distance along the run, its ends beyond them."""
         if along_m <= 0.0:
@@ -155,11 +160,21 @@ class Follower:
         bend = leg.stance(self._along_m + does.bend_ahead_m)
         bend_rad = abs(wrap_angle(bend[2] - X_WS.yaw_rad))
         cruise_m_s = leg.speed_m_s(self._along_m, self._along_m + does.slow_ahead_m)
-        speed_m_s = min(cruise_m_s, does.least_m_s + does.slow_down_1_s * left_over_m)
-        speed_m_s /= 1.0 + does.slow_in_bends_1_rad * max(bend_rad, abs(off_rad))
+        speed_m_s = min(
+            cruise_m_s,
+            does.least_m_s + does.slow_down_1_s * left_over_m,
+            self._in_bends_m_s(leg, max(bend_rad, abs(off_rad))),
+        )
         vx, vy = self._velocity(leg, x_m, y_m, speed_m_s)
         c, s = math.cos(X_WS.yaw_rad), math.sin(X_WS.yaw_rad)
         return self._within_limits(c * vx + s * vy, c * vy - s * vx, off_rad)
+
+    def _in_bends_m_s(self, leg: Stretch, bend_rad: float) -> float:
+        """Most speed for what there is to turn; who is slow for want of room is slow enough.
+
+        Slowed down for both a walk went through a doorway around the corner at 0.18 m/s.
+        """
+        return leg.top_m_s / (1.0 + self.walking.following.slow_in_bends_1_rad * bend_rad)
 
     def _velocity(
         self, leg: Stretch, x_m: float, y_m: float, speed_m_s: float

@@ -17,6 +17,7 @@ from robot.control.walking.footsteps import (
 )
 from robot.model import description
 from robot.se3 import wrap_angle
+from tests.fakes.bodies import shipped_or_skip
 
 ROBOT = description.load()
 WALKING, FOOT = ROBOT.walking, ROBOT.feet["left"]
@@ -152,6 +153,22 @@ def test_two_steps_of_a_steady_twist_advance_as_asked(planner, twist):
     assert math.isclose(turned, twist.turn_rad_s * pair_s, abs_tol=1e-6)
     asked = math.hypot(twist.forward_m_s, twist.left_m_s) * pair_s
     assert moved == pytest.approx(asked, rel=0.15, abs=0.02)  # feet that turn apart
+
+
+@pytest.mark.parametrize("name", ["juno", "g1", "t1"])
+def test_steps_are_long_enough_for_the_top_speed(name):
+    robot = description.load(shipped_or_skip(name))
+    gait = robot.walking
+    planner = FootstepPlanner(gait, robot.feet["left"])
+    half_m = 0.5 * gait.stance_width_m
+    feet = {"left": Sole(0.0, half_m, 0.0), "right": Sole(0.0, -half_m, 0.0)}
+    top = Twist(gait.max_forward_m_s)
+    landings, _ = walk(planner, feet, top, first="left", steps=10)
+    strides_m = [
+        b.x - a.x for (_, a, _), (_, b, _) in zip(landings[2:], landings[4:], strict=False)
+    ]
+    asked_m = 2.0 * planner.step_time_s * gait.max_forward_m_s
+    assert strides_m == pytest.approx([asked_m] * len(strides_m), abs=1e-6)
 
 
 @given(stances, st.floats(-1.0, 1.0), st.floats(-1.0, 1.0), headings)
