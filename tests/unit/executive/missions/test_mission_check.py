@@ -295,7 +295,7 @@ def test_neither_a_mistake_beside_it_nor_the_world_hides_a_mistake(world, write)
         ),
         ("  - go_to: {person: Anna}\n    timeout_s: 0.001\n", "takes 0.05 s at least"),
         ("  - do: [{repeat: 3, do: [wait: 5]}]\n    timeout_s: 14\n", "takes 15 s at least"),
-        ("  - go_to: {by: {forward_m: 2}}\n    timeout_s: 3.9\n", "takes 4 s at least"),
+        ("  - go_to: {by: {forward_m: 2.24}}\n    timeout_s: 3.9\n", "takes 4 s at least"),
         ("  - parallel: [wait: 5, wait: 7]\n    timeout_s: 6\n", "takes 7 s at least"),
         ("  - {do: [balance: {mode: squat, duration_s: 9}], timeout_s: 8}\n", "9 s at least"),
     ],
@@ -576,7 +576,7 @@ def test_a_loop_that_is_wrong_keeps_its_name(write):
     assert any("parameter 'cop'" in text for text in found)
 
 
-@pytest.mark.parametrize("speed", [99, 0.51, 0.01, 0])
+@pytest.mark.parametrize("speed", [99, 0.57, 0.01, 0])
 def test_a_speed_that_the_robot_does_not_walk_is_refused(speed, write):
     (found,) = problems(write(mission("  - stand\n", f"limits: {{speed_m_s: {speed}}}\n")))
     assert "speed_m_s" in found

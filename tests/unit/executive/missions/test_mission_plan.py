@@ -38,7 +38,7 @@ def seconds(path, *, carrying=False):
 def test_a_way_takes_longer_that_is_longer_bends_or_is_narrow():
     straight = seconds(way((2.0, 0.0, 0.0)))
     assert 6.0 < straight < 14.0
-    assert seconds(way((4.0, 0.0, 0.0))) > straight + 4.0
+    assert seconds(way((4.0, 0.0, 0.0))) > straight + 2.0 / JUNO.walking.max_forward_m_s
     assert seconds(way((2.0, 0.0, 0.0), (2.0, 0.0, 3.0))) > straight + 3.0
     assert seconds(way((1.0, 0.0, 0.0), (1.7, 0.7, 1.5))) > straight
     assert seconds(way((2.0, 0.0, 0.0), clearance_m=0.2)) > straight + 1.0
