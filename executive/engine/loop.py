@@ -18,6 +18,8 @@ from robot.reality.faults import Fault
 PERIOD_S = 1.0 / RATE_HZ
 STANDING_S = 0.1
 """How often `until` is asked while time stands still."""
+PATIENCE_S = 2.0
+"""A wish that no tick has heeded for so long comes to something that takes much longer."""
 
 
 class Runtime(Protocol):
@@ -79,6 +81,10 @@ def _nothing() -> None:
     """Wake nobody."""
 
 
+class BrokenOff(KeyboardInterrupt):
+    """Ctrl-C that came while one computation kept a simulated robot, and everything, waiting."""
+
+
 class Interrupts:
     """Counts Ctrl-C: the first asks for a safe stop, the second for damping at once.
 
@@ -88,10 +94,15 @@ class Interrupts:
     SIGTERM and SIGHUP ask for the same safe stop, and for no more however often they come: a shell
     and the kernel each tell of one closed terminal, and only a person who presses again is in
     a hurry.
+
+    A `fast` robot ticks in the thread that computes its plans and builds its world. Where the next
+    tick is longer than some time in coming, `listen` breaks off what keeps it (`patience_s`).
     """
 
     def __init__(self) -> None:
         """None yet."""
+        self.unseen = False
+        """Whether no tick has looked since the last one came."""
         self.count = 0
         self.pressed = 0
         """As `count`, but never from zero again."""
@@ -123,8 +134,13 @@ class Interrupts:
         self.heeded = False
 
     @contextmanager
-    def listen(self) -> Generator[None]:
-        """Count SIGINT, SIGTERM and SIGHUP inside the block; in the main thread only."""
+    def listen(self, *, patience_s: float | None = None) -> Generator[None]:
+        """Count SIGINT, SIGTERM and SIGHUP inside the block; in the main thread only.
+
+        Args:
+            patience_s: raise `BrokenOff` where one has been waiting for a tick so long; None: let
+                it wait. SIGALRM is in use then.
+        """
         numbers = {signal.SIGINT, signal.SIGTERM}
         if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # as `nohup` wants it
             numbers.add(signal.SIGHUP)
@@ -139,11 +155,26 @@ class Interrupts:
             if presses:  # else they were counted with the signal before
                 self.press(presses)
 
-        handlers = {number: signal.signal(number, heard) for number in numbers}
+        def noted(number: int, frame: FrameType | None) -> None:
+            if patience_s is not None and not self.unseen:
+                signal.setitimer(signal.ITIMER_REAL, patience_s)
+            self.unseen = True
+            heard(number, frame)
+
+        def waited(_number: int, _frame: FrameType | None) -> None:
+            if self.unseen:
+                self.unseen = False
+                raise BrokenOff
+
+        handlers = {number: signal.signal(number, noted) for number in numbers}
+        if patience_s is not None:
+            handlers[signal.SIGALRM] = signal.signal(signal.SIGALRM, waited)
         wakeup_fd = signal.set_wakeup_fd(pipe.fd, warn_on_full_buffer=False)
         try:
             yield
         finally:
+            if patience_s is not None:
+                signal.setitimer(signal.ITIMER_REAL, 0.0)
             signal.set_wakeup_fd(wakeup_fd)
             for number, handler in handlers.items():
                 signal.signal(number, handler)
@@ -188,6 +219,9 @@ def run(
             on_tick()
             if not going_on:
                 return
+    except BrokenOff:
+        _damp(runtime)
+        executive.abandon(None, runtime.clock.now_s())
     except KeyboardInterrupt:
         _damp(runtime)
         raise
@@ -201,6 +235,7 @@ def _restarted(runtime: Runtime) -> Sequence[str]:
 
 def _tick(runtime: Runtime, executive: Executive, interrupts: Interrupts) -> bool:
     """One tick, or the end of all jobs; whether it goes on."""
+    interrupts.unseen = False
     now_s = runtime.clock.now_s()
     lost = runtime.failure()
     if lost is not None:

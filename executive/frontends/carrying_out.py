@@ -10,7 +10,7 @@ from pathlib import Path
 import msgspec
 
 from executive.engine.executive import Executive
-from executive.engine.loop import Interrupts
+from executive.engine.loop import PATIENCE_S, Interrupts
 from executive.frontends import speaking
 from executive.frontends.composition_root import REALITY
 from executive.frontends.console.beside import shown as viewed
@@ -170,7 +170,9 @@ def _work_off(
     assignment, left = prepared.assignment, prepared.left
     interrupts = Interrupts()
     with ExitStack() as stack:
-        stack.enter_context(interrupts.listen())
+        stack.enter_context(
+            interrupts.listen(patience_s=None if handle is not None else PATIENCE_S)
+        )
         hear_people(handle, interrupts)
         robot = stack.enter_context(runtimes.opened(prepared.setup, handle=handle))
         session = stack.enter_context(

@@ -6,7 +6,8 @@ import numpy as np
 
 from robot.failures import Failure, failure
 from robot.planning import numerics
-from robot.planning.floor import CELL_M, Floor
+from robot.planning.floor import Floor
+from robot.planning.floor_field import CELL_M
 from robot.planning.numerics import Indices
 from robot.planning.requests import Stance
 from robot.se3 import Array

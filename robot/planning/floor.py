@@ -3,29 +3,21 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 
 import numpy as np
 
 from robot.planning import numerics
+from robot.planning.floor_field import CELL_M, field_of, outermost, signed
 from robot.planning.numerics import Indices, Mask
 from robot.planning.solids import Solid
 from robot.se3 import Array
 
-CELL_M = 0.04
 WAY_CELLS = 2
 """Lengths of ways are reckoned on a coarser grid: three cells fit in a doorway's middle."""
 LEAVE_M = 1.0
 """A place too near furniture to turn in is left by no more than that [m]."""
 LOWEST_M, HIGHEST_M = 0.03, 1.35
 """Solids outside of this range of heights are walked over or under [m]."""
-UPRIGHT = 0.999
-"""Cosine of the tilt up to which a solid stands upright."""
-LARGE_M = 1.5
-"""Walls and sideboards fill a home: no point is farther than some metres from one of them, and what
-is smaller (tables, chairs, people) is measured so far only."""
-WITHIN_M = 1e-6
-"""What lies so far within another is never the nearest, however the sums are rounded."""
 
 
 class Floor:
@@ -43,11 +35,11 @@ class Floor:
     def __init__(
         self, solids: tuple[Solid, ...], bounds_m: tuple[float, float, float, float]
     ) -> None:
-        """Measure the distances; about 1 ms a solid the first time, then remembered."""
+        """Measure the distances; some 20 ms a home the first time, less what is as it was."""
         self.bounds_m = bounds_m
         self.solids = tuple(s for s in solids if _in_the_way(s))
         self._x0, self._y0 = bounds_m[0], bounds_m[1]
-        self.field, self._rows = _field(_outermost(self.solids), bounds_m)
+        self.field, self._rows = field_of(outermost(self.solids), bounds_m)
         self._height, self._width = self.field.shape
 
     def clearance_m(self, x_m: float, y_m: float) -> float:
@@ -143,7 +135,7 @@ class Floor:
     @staticmethod
     def distance_m(solid: Solid, x_m: float, y_m: float) -> float:
         """Signed distance of a point to one solid's outline [m]."""
-        return float(_signed(solid, np.array([[x_m]]), np.array([[y_m]]))[0, 0])
+        return float(signed(solid, np.array([[x_m]]), np.array([[y_m]]))[0, 0])
 
     def _edge(self, x_m: float, y_m: float) -> float:
         x0, y0, x1, y1 = self.bounds_m
@@ -184,103 +176,3 @@ def with_room(
 def _in_the_way(solid: Solid) -> bool:
     low, high = solid.z_range_m()
     return low < HIGHEST_M and high > LOWEST_M
-
-
-def _grid(bounds_m: tuple[float, float, float, float]) -> tuple[Array, Array]:
-    x0, y0, x1, y1 = bounds_m
-    columns, rows = math.ceil((x1 - x0) / CELL_M), math.ceil((y1 - y0) / CELL_M)
-    xs = x0 + numerics.even(0.0, CELL_M * columns, columns + 1)
-    ys = y0 + numerics.even(0.0, CELL_M * rows, rows + 1)
-    return xs[None, :], ys[:, None]
-
-
-@lru_cache(maxsize=8)
-def _edge_distance(bounds_m: tuple[float, float, float, float]) -> Array:
-    xs, ys = _grid(bounds_m)
-    x0, y0, x1, y1 = bounds_m
-    return np.minimum(np.minimum(xs - x0, x1 - xs), np.minimum(ys - y0, y1 - ys))
-
-
-def _outermost(solids: tuple[Solid, ...]) -> tuple[Solid, ...]:
-    """The solids whose outlines lie within no other's: only they can be nearest to anything.
-
-    What lies on a table is within the table, so a home of 300 things costs little more than an
-    empty one, and the same field serves whatever is seen on its surfaces.
-    """
-    upright = [abs(s.X_WG.rotation()[2, 2]) > UPRIGHT for s in solids]
-    hosts = [n for n, s in enumerate(solids) if s.kind == "box" and upright[n]]
-    if not hosts:
-        return solids
-    outlines = np.array([_outline(s) for s in solids])
-    inside = np.zeros(len(solids), dtype=bool)
-    for number in hosts:
-        host = solids[number]
-        far = _signed(host, outlines[..., 0], outlines[..., 1]).max(axis=1)
-        inside |= far < -WITHIN_M
-    return tuple(s for s, within in zip(solids, inside, strict=True) if not within)
-
-
-def _outline(solid: Solid) -> Array:
-    """Corners of the upright rectangle around a solid's outline, shape (4, 2)."""
-    corners = np.array([(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)])
-    rotation = solid.X_WG.rotation()
-    at = np.array(solid.X_WG.p[:2])
-    if abs(rotation[2, 2]) > UPRIGHT:
-        return at + (corners * 0.5 * np.array(solid.size_m[:2])) @ rotation[:2, :2].T
-    return at + corners * solid.half_extents_m()[:2]
-
-
-@lru_cache(maxsize=8)
-def _field(
-    solids: tuple[Solid, ...], bounds_m: tuple[float, float, float, float]
-) -> tuple[Array, list[list[float]]]:
-    """The distances on the grid, as an array that nobody changes and as rows."""
-    field = _edge_distance(bounds_m).copy()
-    is_large = [max(solid.size_m[:2]) > LARGE_M for solid in solids]
-    for solid, large in zip(solids, is_large, strict=True):
-        if large:
-            np.minimum(field, _solid_distance(solid, bounds_m), out=field)
-    reach_m = math.ceil(float(field.max()))  # farther off, something large is nearer
-    for solid, large in zip(solids, is_large, strict=True):
-        if not large:
-            around, distances = _distance_around(solid, bounds_m, reach_m)
-            np.minimum(field[around], distances, out=field[around])
-    field.flags.writeable = False
-    return field, field.tolist()
-
-
-@lru_cache(maxsize=512)
-def _solid_distance(solid: Solid, bounds_m: tuple[float, float, float, float]) -> Array:
-    return _signed(solid, *_grid(bounds_m))
-
-
-@lru_cache(maxsize=512)
-def _distance_around(
-    solid: Solid, bounds_m: tuple[float, float, float, float], reach_m: int
-) -> tuple[tuple[slice, slice], Array]:
-    """Distances to a solid on the part of the grid that is no farther from it than `reach_m`."""
-    xs, ys = _grid(bounds_m)
-    x, y = (float(at) for at in solid.X_WG.p[:2])
-    far_x, far_y = (solid.half_extents_m()[:2] + reach_m + CELL_M).tolist()
-    columns = slice(*np.searchsorted(xs[0], (x - far_x, x + far_x)).tolist())
-    rows = slice(*np.searchsorted(ys[:, 0], (y - far_y, y + far_y)).tolist())
-    return (rows, columns), _signed(solid, xs[:, columns], ys[rows])
-
-
-def _signed(solid: Solid, xs: Array, ys: Array) -> Array:
-    """Signed distance to a solid's outline at points (broadcast)."""
-    rotation = solid.X_WG.rotation()
-    dx, dy = xs - solid.X_WG.p[0], ys - solid.X_WG.p[1]
-    upright = abs(rotation[2, 2]) > UPRIGHT
-    if solid.kind == "cylinder" and upright:
-        return np.hypot(dx, dy) - 0.5 * solid.size_m[0]
-    if upright:
-        yaw = solid.X_WG.yaw_rad
-        half = 0.5 * np.array(solid.size_m[:2])
-        c, s = math.cos(yaw), math.sin(yaw)
-        dx, dy = c * dx + s * dy, -s * dx + c * dy
-    else:
-        half = solid.half_extents_m()[:2]
-    qx, qy = np.abs(dx) - half[0], np.abs(dy) - half[1]
-    outside = np.hypot(np.maximum(qx, 0.0), np.maximum(qy, 0.0))
-    return outside + np.minimum(np.maximum(qx, qy), 0.0)

@@ -13,7 +13,8 @@ import math
 import numpy as np
 
 from robot.planning import numerics
-from robot.planning.floor import CELL_M, Floor
+from robot.planning.floor import Floor
+from robot.planning.floor_field import CELL_M
 from robot.se3 import Array
 
 STRIDE = 2
@@ -21,6 +22,8 @@ STRIDE = 2
 TIGHT_COST = 12.0
 """What a metre costs more where things are as near as can be. To squeeze between chairs is worth
 a detour of 2 to 4 m; through a doorway of 0.8 m, in its middle, one of 0.1 m."""
+AROUND_NODES = 250
+"""So far around the start is searched first, 20 m: a home as a whole, and not all of a factory."""
 CHEAP_ENOUGH = 1.02
 """A straight line may cost 2 % more than what it stands for: the grid is off by up to 4 %."""
 
@@ -39,15 +42,55 @@ class FloorWays:
         """
         self._floor, self._least_m, self._wanted_m = floor, least_m, wanted_m
         self._start = start
-        field = floor.field
-        cost = np.where(field >= least_m, self._cost(field), np.inf)
-        self._shape = cost[::STRIDE, ::STRIDE].shape
-        self._costs, self._before = numerics.cheapest_ways(cost, STRIDE, self._node(start))
+        height, width = floor.field.shape
+        self._shape = (-(-height // STRIDE), -(-width // STRIDE))
+        self._from = self._node(start)
+        self._search(AROUND_NODES)
 
     def cost(self, goal: Array) -> float:
         """What the way to a point costs [m of free floor]; infinite where there is none."""
-        row, column = self._node(goal)
-        return float(self._costs[row, column]) * STRIDE * CELL_M
+        return self._cost_to(self._node(goal)) * STRIDE * CELL_M
+
+    def _cost_to(self, node: tuple[int, int]) -> float:
+        """What the way to a node costs [lengths of a grid's edge]; searches farther off if it must.
+
+        No length costs less than one, so no way that leaves what was searched costs less than it
+        is to its edge.
+        """
+        while True:
+            (top, left), (rows, columns) = self._corner, self._costs.shape
+            row, column = node[0] - top, node[1] - left
+            inside = 0 <= row < rows and 0 <= column < columns
+            found = float(self._costs[row, column]) if inside else math.inf
+            if found <= self._around or not self._leads_on:
+                return found
+            self._search(2 * self._around)
+
+    def _search(self, around: int) -> None:
+        """Find the ways to all nodes that are no more rows and columns from the start than that."""
+        spans = [
+            (max(0, at - around), min(size, at + around + 1))
+            for at, size in zip(self._from, self._shape, strict=True)
+        ]
+        (top, bottom), (left, right) = spans
+        field = self._floor.field[
+            STRIDE * top : STRIDE * (bottom - 1) + 1, STRIDE * left : STRIDE * (right - 1) + 1
+        ]
+        cost = np.where(field >= self._least_m, self._cost(field), np.inf)
+        start = (self._from[0] - top, self._from[1] - left)
+        self._costs, self._before = numerics.cheapest_ways(cost, STRIDE, start)
+        self._around, self._corner = around, (top, left)
+        beyond = [
+            costs
+            for costs, is_edge in (
+                (self._costs[0], top == 0),
+                (self._costs[-1], bottom == self._shape[0]),
+                (self._costs[:, 0], left == 0),
+                (self._costs[:, -1], right == self._shape[1]),
+            )
+            if not is_edge
+        ]
+        self._leads_on = any(bool(np.isfinite(costs).any()) for costs in beyond)
 
     def corners(self, goal: Array) -> Array | None:
         """Corners of the way to a point, both ends included, shape (k, 2); None: there is none."""
@@ -55,11 +98,13 @@ class FloorWays:
             return np.array([self._start, goal])
         if not math.isfinite(self.cost(goal)):
             return None
-        nodes = [self._node(goal)]
-        while nodes[-1] != self._node(self._start):
+        (top, left), columns = self._corner, self._costs.shape[1]
+        row, column = self._node(goal)
+        nodes = [(row - top, column - left)]
+        while nodes[-1] != (self._from[0] - top, self._from[1] - left):
             index = int(self._before[nodes[-1]])
-            nodes.append((index // self._shape[1], index % self._shape[1]))
-        points = self._floor.points(np.array(nodes[::-1]) * STRIDE)
+            nodes.append((index // columns, index % columns))
+        points = self._floor.points((np.array(nodes[::-1]) + self._corner) * STRIDE)
         return self._pulled_tight(np.concatenate([[self._start], points[1:-1], [goal]]))
 
     def _pulled_tight(self, points: Array) -> Array:

@@ -162,6 +162,36 @@ def test_two_presses_in_one_tick_damp():
     assert executive.outcome.failure.code == "cancelled"
 
 
+@pytest.mark.parametrize("number", [INT, TERM])
+def test_what_keeps_a_fast_robot_waiting_is_broken_off(number):
+    """Whatever computes in a tick, and however long: a plan in a hall of a thousand tables."""
+    runtime = PuppetRuntime(puppet())
+    interrupts = Interrupts()
+    executive = executive_on(runtime)
+
+    def compute():
+        os.kill(os.getpid(), number)
+        while True:
+            sum(range(1000))
+
+    runtime.at = [(1.0, compute)]
+    with interrupts.listen(patience_s=0.05):
+        run(runtime, executive, interrupts=interrupts)
+    assert isinstance(runtime.puppet.sent[-1], Damp)
+    assert executive.outcome.failure.code == "cancelled"
+
+
+def test_a_press_that_a_tick_has_seen_breaks_nothing_off():
+    runtime = PuppetRuntime(puppet())
+    interrupts = Interrupts()
+    executive = executive_on(runtime)
+    runtime.at = [(1.0, lambda: os.kill(os.getpid(), INT)), (1.1, lambda: time.sleep(0.1))]
+    with interrupts.listen(patience_s=0.05):
+        run(runtime, executive, interrupts=interrupts)
+        time.sleep(0.1)
+    assert not any(isinstance(sent, Damp) for sent in runtime.puppet.sent)
+
+
 def test_after_a_stop_the_next_ctrl_c_is_a_first_one_again():
     runtime = PuppetRuntime(puppet())
     interrupts = Interrupts()

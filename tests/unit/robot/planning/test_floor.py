@@ -5,7 +5,9 @@ import math
 import numpy as np
 import pytest
 
+from robot.planning import floor_field
 from robot.planning.floor import Floor
+from robot.planning.floor_ways import FloorWays
 from robot.planning.solids import Solid
 from robot.se3 import SE3
 
@@ -88,3 +90,50 @@ def test_distances_are_those_to_the_nearest_of_all_solids() -> None:
             edge = min(x + 3.0, 3.0 - x, y + 3.0, 3.0 - y)
             nearest = min([edge, *(Floor.distance_m(one, x, y) for one in solids)])
             assert floor.field[*cell] == pytest.approx(nearest, abs=1e-9)
+
+
+def tables(side: int) -> tuple[Solid, ...]:
+    """So many times so many of them, one every 3 m."""
+    return tuple(
+        Solid(
+            id=f"t{row}-{column}", kind="box", size_m=(1.6, 0.8, 0.7),
+            X_WG=SE3.from_xy_yaw(3.0 * column, 3.0 * row, 0.3 * row, z_m=0.35),
+        )
+        for row in range(side) for column in range(side)
+    )  # fmt: skip
+
+
+def test_a_hall_of_tables_costs_by_its_area_however_many_there_are(monkeypatch) -> None:
+    """Every table was measured all over the hall: minutes, and gigabytes."""
+    points: list[int] = []
+    signed = floor_field.signed
+
+    def counted(solid: Solid, xs, ys):
+        found = signed(solid, xs, ys)
+        points.append(found.size)
+        return found
+
+    monkeypatch.setattr(floor_field, "signed", counted)
+    each: list[float] = []
+    for side in (4, 12):
+        points.clear()
+        floor = Floor(tables(side), (-2.0, -2.0, 3.0 * side, 3.0 * side))
+        each.append(sum(points) / floor.field.size)
+    assert each[1] < 8
+    assert each[1] < 1.5 * each[0]
+    points.clear()
+    Floor((*tables(12)[:-1],), (-2.0, -2.0, 36.0, 36.0))  # what stands as it did is not measured
+    assert sum(points) < 0.1 * floor.field.size
+
+
+def test_a_way_in_a_hall_is_the_same_when_it_is_searched_piece_by_piece(monkeypatch) -> None:
+    floor = Floor(tables(8), (-2.0, -2.0, 24.0, 24.0))
+    goals = np.random.default_rng(1).uniform(-1.0, 23.0, (40, 2))
+    start = np.array([1.5, 1.5])
+    whole = FloorWays(floor, start, least_m=0.25, wanted_m=0.5)
+    known = [(whole.cost(goal), whole.corners(goal)) for goal in goals]
+    monkeypatch.setattr("robot.planning.floor_ways.AROUND_NODES", 20)
+    for goal, (cost, corners) in zip(goals, known, strict=True):
+        ways = FloorWays(floor, start, least_m=0.25, wanted_m=0.5)
+        assert ways.cost(goal) == pytest.approx(cost)
+        assert np.array_equal(ways.corners(goal), corners)
