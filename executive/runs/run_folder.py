@@ -100,6 +100,7 @@ MOST_AT_ONCE = 100
 MOST_MISSIONS = 1000
 """Files that a run of a stranger has kept."""
 FULL = (errno.ENOSPC, errno.EDQUOT)
+BARRED = (errno.EACCES, errno.EPERM, errno.EROFS)
 ELSEWHERE = "name a folder of your own with --run-dir, or begin in one"
 PRIVATE = 0o700
 """Mode of a run's folder: it says what was said, by whom, and where people and things were."""
@@ -130,17 +131,19 @@ def place_for_new() -> tuple[Path, str]:
 def folder_for(text: str, *, stamp: str, base: Path = places.HERE) -> Path:
     """A new folder, whose name sorts by time and says what it was about.
 
-    It is made here, so that two runs that begin in the same second have one each; where none can be
-    made, the journal says so.
+    It is made here, so that two runs that begin in the same second have one each; where the disk
+    has no room for one, the journal says so.
 
     Raises:
-        ConfigError: if others could exchange `base`, as in a current folder that is shared.
+        ConfigError: if others could exchange `base`, as in a current folder that is shared, or it
+            may not be written.
     """
     slug = re.sub(r"[^a-z0-9]+", "-", text.casefold()).strip("-")
     if len(slug) > 40:
         slug = slug[:40].rpartition("-")[0] or slug[:40]
     first = base / f"{stamp}-{slug or 'run'}"
     check_way(base, cure=ELSEWHERE)
+    check_writable(first)
     with contextlib.suppress(OSError):
         base.mkdir(parents=True, exist_ok=True)
     for folder in [first, *(first.with_name(f"{first.name}-{n}") for n in range(2, MOST_AT_ONCE))]:
@@ -148,10 +151,32 @@ def folder_for(text: str, *, stamp: str, base: Path = places.HERE) -> Path:
             folder.mkdir(mode=PRIVATE)
         except FileExistsError:
             continue
-        except OSError:
+        except OSError as error:
+            if error.errno in BARRED:
+                raise _barred(base, error) from None
             break
         return folder
     return first
+
+
+def check_writable(folder: Path) -> None:
+    """Refuse a folder that could not be made, or written into, for want of the right to.
+
+    A robot that is up tells of nothing that happens to it there, and has worked in vain. Nothing
+    is made; what cannot be told before is found when the folder is.
+
+    Raises:
+        ConfigError: if that is so.
+    """
+    there = next((one for one in (folder, *folder.absolute().parents) if one.is_dir()), folder)
+    if os.path.lexists(there) and not os.access(there, os.W_OK | os.X_OK, effective_ids=True):
+        raise _barred(there.absolute(), None)
+
+
+def _barred(folder: Path, error: OSError | None) -> ConfigError:
+    why = f": {error.strerror}" if error is not None else ""
+    text = f"the folder {folder.absolute()} cannot be written{why}, so nothing of a run is kept"
+    return ConfigError([Problem(text, suggestion=ELSEWHERE)])
 
 
 def check_free(folder: Path) -> None:

@@ -22,6 +22,7 @@ from executive.frontends.exit import ended_by
 from executive.frontends.output import Screen, say, tell_of_mistakes
 from executive.frontends.service import place as places
 from executive.frontends.service.options import Up
+from executive.runs import run_folder
 from robot.exit_status import ExitStatus
 from robot.files.ordinary_files import read_ordinary
 
@@ -34,7 +35,11 @@ def up(options: Up) -> int:
     """Start a robot in a session of its own, and wait until it listens; returns the exit status.
 
     Ctrl-C meanwhile brings it down again.
+
+    Raises:
+        ConfigError: if nothing can be kept where it would be.
     """
+    run_folder.check_writable(options.run_dir or run_folder.place_for_new()[0])
     process = subprocess.Popen(
         [sys.executable, "-P", "-m", MODULE, options.name],
         stdin=subprocess.PIPE,
