@@ -36,12 +36,13 @@ from executive.frontends.options import (
     takes,
 )
 from executive.frontends.output import say, tell_of_mistakes
-from executive.frontends.panels import Ordered, put_into_panels
+from executive.frontends.panels import PANEL_OF, Ordered, put_into_panels
 from executive.frontends.past_runs import cli as history
 from executive.frontends.recordings import cli as recordings
 from executive.frontends.recordings import maps_cli, sensors_cli
 from executive.frontends.remote import cli as remotes
 from executive.frontends.service import cli as services
+from executive.frontends.service import quick
 from executive.frontends.settings import cli as configs
 from executive.frontends.settings.applied import Defaults
 from executive.frontends.settings.files import Settings
@@ -369,6 +370,8 @@ def main() -> None:
     completes = "_HUMANOID_COMPLETE" in os.environ
     try:
         sys.argv[1:] = map(_checked, sys.argv[1:])
+        if not completes and quick.is_cried(sys.argv[1:], list(PANEL_OF)):
+            sys.exit(quick.run(["stop", *sys.argv[1:]]))
         _check_values(sys.argv[1:])
         # what is completed needs no defaults, and a file that is wrong is no business of Tab's
         app(prog_name="humanoid", default_map=None if completes else defaults)

@@ -21,7 +21,9 @@ PANELS = {
     "Motors, real and emulated": ("motors",),
     "This installation": ("doctor", "config"),
 }  # fmt: skip
-_ORDER = [name for names in PANELS.values() for name in names]
+PANEL_OF = {name: panel for panel, names in PANELS.items() for name in names}
+"""By the name of a command; those that have none are hidden."""
+_ORDER = list(PANEL_OF)
 
 
 class Ordered(TyperGroup):
@@ -34,9 +36,8 @@ class Ordered(TyperGroup):
 
 def put_into_panels(app: typer.Typer) -> None:
     """Give every command of an application its heading."""
-    panel_of = {name: panel for panel, names in PANELS.items() for name in names}
     for one in app.registered_commands:
         name = one.name or getattr(one.callback, "__name__", "")
-        one.rich_help_panel = panel_of[name]
+        one.rich_help_panel = PANEL_OF[name]
     for group in app.registered_groups:
-        group.rich_help_panel = panel_of[str(group.name)]
+        group.rich_help_panel = PANEL_OF[str(group.name)]

@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
+from executive.frontends.emergency import emergency
 from executive.frontends.launching import from_plain_options
 from executive.frontends.listening.hearing import audio_errors, ear, sound
 from executive.frontends.listening.options import Listen
@@ -162,7 +163,10 @@ class Conversation:
                 say(f"(“{one.text}” passed over: {one.why})")
             return
         say(f"> {one.text}")
-        if one.kind == "stop" or shell.brake.is_cry(one.text):
+        if (named := emergency(one.text)) is not None and not named.undoes:
+            shell.stop_at_once(one.text)
+            self._stops = shell.brake.stops
+        elif one.kind == "stop" or shell.brake.is_cry(one.text):
             shell.brake.stop("a cry to stop was heard")
             self._stops = shell.brake.stops
         elif self._over:

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 
 import pytest
 
+from executive.frontends import cli
 from executive.frontends.service import attach as attaching
 from executive.frontends.service import client as clients
 from executive.frontends.service import commands, quick, stopping
@@ -122,7 +123,9 @@ def test_one_that_does_not_answer_keeps_no_other_from_being_stopped(monkeypatch,
 
 def test_where_nobody_is_up_a_stop_says_so(capsys):
     assert quick.run(["stop"]) == ExitStatus.INVALID
-    assert "no robot is up" in capsys.readouterr().err
+    told = capsys.readouterr().err
+    assert "no robot is up" in told
+    assert told.endswith("Nothing was stopped.\n")
     with pytest.raises(ConfigError):
         commands.status(None, as_json=False)
 
@@ -135,12 +138,61 @@ def test_where_nobody_is_up_a_stop_says_so(capsys):
         ("stop --name kitchen", True),
         ("stop --help", False),
         ("estop release", False),
+        ("estop reset --name kitchen", False),
         ("do stop", False),
         ("", False),
+        ("stop now", True),
+        ("stop please", True),
+        ("stop robot", True),
+        ("stop --all", True),
+        ("stop --nmae kitchen", True),
+        ("STOP", True),
+        ("Stop!", True),
+        ("halt", True),
+        ("estop now", True),
+        ("e-stop", True),
+        ("estop press", True),
+        ("stopover", False),
     ],
 )
 def test_what_is_no_more_than_a_stop_takes_the_short_way(line, meant):
     assert quick.is_meant(line.split()) == meant
+
+
+@pytest.mark.parametrize(
+    ("line", "did"),
+    [("stop now", "stop"), ("stop --all", "stop"), ("HALT", "stop"), ("stop --name", "stop"),
+     ("estop now", "estop"), ("E-STOP the arm", "estop")],
+)  # fmt: skip
+def test_whatever_is_said_along_with_a_stop_it_stops_and_then_complains(line, did, capsys):
+    first, second = Told(), Told()
+    words = line.split()
+    with (
+        claimed("hall") as hall, claimed("robot") as robot,
+        counter(first, hall), counter(second, robot),
+    ):  # fmt: skip
+        assert quick.run(words) == ExitStatus.DONE
+    assert (first.did, second.did) == ([did], [did])
+    told = capsys.readouterr().err
+    assert not words[1:] or f"“{' '.join(words[1:])}” means nothing here" in told
+
+
+def test_a_robot_of_a_name_that_is_not_up_is_said_and_that_nothing_was_stopped(capsys):
+    told = Told()
+    with claimed("hall") as hall, counter(told, hall):
+        assert quick.run(["stop", "--name", "hell"]) == ExitStatus.INVALID
+    assert told.did == []
+    assert capsys.readouterr().err.endswith("Nothing was stopped.\n")
+
+
+def test_a_cry_that_is_no_command_stops(monkeypatch, capsys):
+    told = Told()
+    monkeypatch.setattr("sys.argv", ["humanoid", "freeze!"])
+    with claimed("hall") as hall, counter(told, hall), pytest.raises(SystemExit) as ended:
+        cli.main()
+    assert (ended.value.code, told.did) == (ExitStatus.DONE, ["stop"])
+    assert not quick.is_cried(["do", "stop"], ["do"])
+    assert not quick.is_cried(["dump"], ["do"])
 
 
 # --- a prompt from elsewhere ---
