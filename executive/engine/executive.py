@@ -383,7 +383,8 @@ class Executive:
 
     def _resume(self) -> None:
         if self.board.read(PAUSE):
-            self.stage.record("resume")
+            over = all(work.ending is not None for work in self.tree.jobs.works)
+            self.stage.record("resume", **({"over": True} if over else {}))
             self._go_on()
 
     def _go_on(self) -> None:

@@ -18,8 +18,8 @@ AT_THE_MACHINE = "That names a file: it is for somebody at the robot's own machi
 _WORD = "estop"
 _NAMES = (("estop",), ("e", "stop"), ("emergency", "stop"), ("emergencystop",))
 _AROUND = words(
-    "please robot now quick quickly hey hit press push pull use do make trigger engage activate the "
-    "an a that this red button right at once immediately stop halt everybody everything"
+    "please robot now quick quickly hey hit press push pull use do make trigger engage activate "
+    "the an a that this red button right at once immediately stop halt everybody everything"
 )
 """What may stand around its name in a line that wants it pressed, and nothing else."""
 _MOST_WORDS = 12

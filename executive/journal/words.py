@@ -17,7 +17,6 @@ AS_IT_HAPPENS: Mapping[str, str] = {
     "pause": "pausing: {why}",
     "paused": "paused: nothing moves",
     "break": "{step}: held at a breakpoint, it has not begun",
-    "resume": "going on",
     "request": "requested: {request}",
     "again": "{step}: tried again ({count})",
     "settled": "{step}: {means}",
@@ -130,9 +129,13 @@ def _resumed(data: Mapping[str, Any]) -> str:
     return f"going on{what}: {data.get('why', '')}"
 
 
+def _let_go_on(data: Mapping[str, Any]) -> str:
+    return "nothing is left to go on with" if data.get("over") else "going on"
+
+
 _OF_KIND = {
-    "health": _health, "heard": _heard, "expect": _expect, "fault": _fault, "resumed": _resumed,
-    "branch": _branch,
+    "health": _health, "heard": _heard, "expect": _expect, "fault": _fault, "resume": _let_go_on,
+    "resumed": _resumed, "branch": _branch,
 }  # fmt: skip
 
 

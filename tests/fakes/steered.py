@@ -66,7 +66,7 @@ class Told:
         self.said: list[str] = []
         self.out = self.said.append
         self.did: list[str] = []
-        self.stops = self.refused = 0
+        self.stops = self.refused = self.asked_back = 0
         self.stopped_s: list[float] = []
         self.asked: tuple[str, tuple[str, ...]] | None = None
         self.commands = {}
@@ -116,6 +116,7 @@ class Told:
                 self.refused += 1
                 self.out("Not understood: nonsense")
             case "the cup":
+                self.asked_back += 1
                 self.asked = ("Which cup?", ("the red one", "the blue one"))
                 self.out("Which cup?")
             case "where are you?":

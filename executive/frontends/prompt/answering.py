@@ -18,18 +18,24 @@ class Answering:
         out: says a line to people; another one while pages show them too.
         speech: says aloud what is answered.
         refused: how many lines led to nothing, because they could not be meant.
+        asked_back: how many were asked back about, be it with the words of the question before.
     """
 
     def __init__(self, out: Out, speech: Speech | None = None) -> None:
         """Nothing was said yet."""
         self.out = out
         self.speech = speech or Speech()
-        self.refused = 0
+        self.refused = self.asked_back = 0
 
     def answer(self, text: str) -> None:
         """Say a line to people, and aloud."""
         self.out(text)
         self.speech.say(text)
+
+    def ask_back(self, question: str) -> None:
+        """Ask what a line means, or ask again."""
+        self.asked_back += 1
+        self.answer(question)
 
     def refuse(self, why: str, cure: str = "") -> None:
         """Say why a line leads to nothing, and what would."""

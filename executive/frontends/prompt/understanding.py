@@ -130,7 +130,7 @@ class Understanding:
         elif isinstance(turn, Reply):
             people.answer(turn.text)
         elif isinstance(turn, Question):
-            people.answer(turn.question)
+            people.ask_back(turn.question)
             self._tell_trouble()
         elif isinstance(turn, Refusal):
             people.refuse(f"Not understood: {turn.reason}", "`help` shows what can be said.")

@@ -335,7 +335,7 @@ class Counter(Closing):
         self._here.asker = _Asker(client, asked.number, aside=False)
         jobs: list[int] = []
         self._here.jobs = jobs
-        refused, open_before = shell.refused, shell.asked
+        refused, asked_back, open_before = shell.refused, shell.asked_back, shell.asked
         status = ExitStatus.DONE
         try:
             if not asked.spoken:
@@ -349,7 +349,8 @@ class Counter(Closing):
             self._here.asker = None
             with self._lock:
                 self._open_lines -= 1
-        if shell.refused > refused or (shell.asked and shell.asked != open_before and not jobs):
+        asks = shell.asked_back > asked_back or (shell.asked and shell.asked != open_before)
+        if shell.refused > refused or (asks and not jobs):
             stopped = shell.stops != stops
             status = max(status, ExitStatus.FAILED if stopped else ExitStatus.INVALID)
         if jobs:

@@ -9,6 +9,7 @@ import pytest
 from executive.engine.jobs import OVER
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.since_boot import now_s
+from executive.journal.words import sentence
 from tests.fakes.puppet_shell import puppet_shell
 from tests.fakes.waiting import eventually
 
@@ -71,6 +72,31 @@ def test_halting_is_said_before_it_is_asked_whether_to_go_on(shell: Shell):
     told = [one for one in said if one == "Halting." or one.startswith("Shall I go on")]
     assert told[0] == "Halting."
     assert told.count("Halting.") == 1
+
+
+@pytest.mark.parametrize("text", ["abort", "never mind", "cancel that"])
+def test_who_calls_a_job_off_while_it_walks_is_not_told_that_it_goes_on(shell: Shell, text: str):
+    told: list[str] = []
+    shell.robot.session.journal.listen(lambda event: told.append(sentence(event.event, event.data)))
+    begin(shell, "walk to the shelf")
+    shell.line(text)
+    assert eventually(lambda: not open_jobs(shell) and any("cancelled" in one for one in told))
+    assert not any("going on" in one for one in told)
+
+
+def test_who_calls_one_of_two_jobs_off_is_told_that_it_goes_on_with_the_other(shell: Shell):
+    told: list[str] = []
+    shell.robot.session.journal.listen(lambda event: told.append(sentence(event.event, event.data)))
+    begin(shell, "walk to the shelf", "wave")
+    shell.line("wait")
+    shell.line("yes")
+    assert eventually(lambda: any(one == "going on" for one in told))
+
+
+def test_every_line_that_is_asked_back_about_counts_also_in_the_same_words(shell: Shell):
+    for count, text in enumerate(("pick up the cup", "banana", "banana"), start=1):
+        shell.line(text)
+        assert shell.asked_back == count
 
 
 def test_nothing_is_let_go_where_nothing_is_held(shell: Shell):

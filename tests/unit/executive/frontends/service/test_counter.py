@@ -231,6 +231,12 @@ def test_what_comes_of_a_line_is_its_status(counter, told, place, text, status, 
     assert (ended.status, words) == (status, [answer])
 
 
+def test_who_is_asked_back_in_the_same_words_is_not_told_that_it_was_taken(counter, told, place):
+    for _ in range(3):
+        assert ask(place, m.Say(text="the cup"))[0].status == ExitStatus.INVALID
+    assert ask(place, m.Say(text="where are you?"))[0].status == ExitStatus.DONE  # and it is open
+
+
 def test_who_asks_what_quit_does_is_told_that_it_leaves_the_robot_at_work(told, place, log):
     quits = []
     told.commands = {
