@@ -57,6 +57,8 @@ class Past(msgspec.Struct, frozen=True, kw_only=True):
         began: the time of day it began at (ISO 8601).
         took_s: the robot's time.
         gone_on_in: the run that went on with it after it was cut off, by the name of its folder.
+        jobs, jobs_done: how many it had, and how many of them are done; 0 where it had no more than
+            one.
     """
 
     folder: str
@@ -69,6 +71,8 @@ class Past(msgspec.Struct, frozen=True, kw_only=True):
     code: str
     took_s: float
     gone_on_in: str = ""
+    jobs: int = 0
+    jobs_done: int = 0
 
 
 def runs(
@@ -130,6 +134,7 @@ def history(base: Path | None = None) -> Iterator[Past]:
 def look(folder: Path) -> Past:
     """What is known of a run: by its summary where it has one, else by its journal."""
     header, summary = _table(folder / "run.json", About), _table(folder / "summary.json", End)
+    jobs = jobs_done = 0
     if summary is not None and not journal.is_written(folder):
         code, took_s = summary.code, summary.simulated_s
         ending = _ending(code, "done" if code == "done" else "failed")
@@ -139,15 +144,16 @@ def look(folder: Path) -> Past:
         header = header or _sane({**run.about, "text": run.text}, About)
         code = task.reason.code if task.reason else "done" if task.state == "done" else ""
         took_s = run.end_s
+        if run.of_jobs[1] > 1:
+            jobs_done, jobs = run.of_jobs
         if journal.is_written(folder):
             code, ending = "", "under way"
         else:
             ending = "idle" if run.idle else _ending(code, task.state)
     header = header or About()
-    began = datetime.fromtimestamp(began_s(folder)).astimezone()
     return Past(
         folder=str(folder),
-        began=began.isoformat(timespec="seconds"),
+        began=_began(folder).isoformat(timespec="seconds"),
         text=printable_line(header.text),
         runtime=printable_line(header.runtime),
         world=printable_line(header.world),
@@ -156,7 +162,18 @@ def look(folder: Path) -> Past:
         code=code,
         took_s=round(took_s, 2),
         gone_on_in=successor.name_of(folder) if ending == "cut off" else "",
+        jobs=jobs,
+        jobs_done=jobs_done,
     )
+
+
+def began(folder: Path) -> str:
+    """The date and the time of day at which a run began, as people read it."""
+    return f"{_began(folder):%Y-%m-%d %H:%M}"
+
+
+def _began(folder: Path) -> datetime:
+    return datetime.fromtimestamp(began_s(folder)).astimezone()
 
 
 def _ending(code: str, state: str) -> Ending:

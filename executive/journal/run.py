@@ -230,6 +230,12 @@ class Run(msgspec.Struct, kw_only=True):
         return self.endings[-1] if self.endings else None
 
     @property
+    def of_jobs(self) -> tuple[int, int]:
+        """How many jobs are done, and how many there were: the newest task says nothing of them."""
+        last = [job.states[-1][1] if job.states else "" for job in self.jobs]
+        return last.count("done"), len(last)
+
+    @property
     def idle(self) -> bool:
         """Whether somebody was there and asked for nothing."""
         return bool(self.about.get("attended")) and not self.task.attempts and not self.task.state

@@ -160,6 +160,9 @@ def _explained(status: Status, verdict: str, run: Run, lines: list[str]) -> Expl
     head = [verdict]
     if run.task.text:
         head.append(f"Asked for: {run.task.text}{_setting(run)}")
+    done, count = run.of_jobs
+    if count > 1:
+        head.append(f"That is of one job; {done} of {count} jobs are done.")
     if run.missing:
         lines.append(
             f"({run.missing} events are missing from the journal: the disk was full, "

@@ -58,6 +58,7 @@ def dump(asked: Asked, *, browse: Callable[[str], object] = webbrowser.open) -> 
         t_s=asked.t_s,
         style=_style(asked),
         everything=asked.everything,
+        began=past_runs.began(folder) if kind == "html" else "",
         why=why(run, live=journal.is_written(folder)).lines if kind == "html" else (),
     )
     data = render(run, kind, wish)

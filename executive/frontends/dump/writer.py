@@ -13,6 +13,7 @@ once, by `problem`.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from datetime import datetime
 from pathlib import Path
 from typing import Literal, Self, get_args
 
@@ -68,6 +69,7 @@ class Dumper(Closing):
         self._on: On = on
         self._formats = formats
         self._run = executive.so_far
+        self._began = f"{datetime.now().astimezone():%Y-%m-%d %H:%M}"
         self._due = False
         self._closed = False
         executive.journal.listen(self._heard)
@@ -100,7 +102,7 @@ class Dumper(Closing):
             path = self._directory / f"{name}.{FORMATS[kind][0]}"
             try:
                 lines = why(self._run, live=True).lines if kind == "html" else ()
-                write_ordinary(path, render(self._run, kind, Wish(why=lines)))
+                write_ordinary(path, render(self._run, kind, Wish(why=lines, began=self._began)))
             except OSError as error:
                 self.problem = f"{path} cannot be written: {error.strerror}"
             except Exception as error:  # a picture must never stop a robot

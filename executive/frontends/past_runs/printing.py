@@ -155,7 +155,14 @@ def _how(one: Past) -> str:
     """How it ended, and where that is not how it went on, in which run."""
     if one.gone_on_in:
         return f"gone on in {_called(one.gone_on_in)}"
+    if one.jobs and one.ending in ("done", "failed", "stopped"):
+        return f"{one.jobs_done} of {one.jobs} done"
     return one.code or one.ending
+
+
+def _kind(one: Past) -> str:
+    """How it ended, as a whole."""
+    return "" if one.ending == "done" and one.jobs_done < one.jobs else one.ending
 
 
 def _name(one: Past) -> str:
@@ -182,7 +189,7 @@ def _table(shown: Iterable[Past], *, located: bool) -> Table:
             _name(one),
             f"{one.took_s:.0f} s",
             one.runtime,
-            Text(_how(one), style=_STYLES.get(one.ending, "dim")),
+            Text(_how(one), style=_STYLES.get(_kind(one), "dim")),
             one.text,
             *([_home_short(Path(one.folder).parent)] if located else []),
         )

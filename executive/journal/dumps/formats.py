@@ -23,13 +23,14 @@ class Wish(msgspec.Struct, frozen=True, kw_only=True):
 
     `t_s` is the time of a picture of the tree (None: the end); the page and the JSON have all
     times in them. `everything` also shows what only holds the tree together. `why` are the lines
-    of the run's explanation, for the page.
+    of the run's explanation, and `began` the time of day it began at, for the page.
     """
 
     t_s: float | None = None
     style: Style = "unicode"
     everything: bool = False
     why: tuple[str, ...] = ()
+    began: str = ""
 
 
 def _title(run: Run, wish: Wish) -> str:
@@ -38,7 +39,7 @@ def _title(run: Run, wish: Wish) -> str:
 
 
 def _html(run: Run, wish: Wish) -> bytes:
-    return page(run, why=list(wish.why)).encode()
+    return page(run, why=list(wish.why), began=wish.began).encode()
 
 
 def _svg(run: Run, wish: Wish) -> bytes:

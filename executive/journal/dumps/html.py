@@ -30,20 +30,24 @@ DECIMALS = 4
 
 
 class Page(msgspec.Struct, kw_only=True):
-    """The data inside a page: the run, the nodes that only hold the tree together, and `why`."""
+    """The data inside a page: the run, the nodes that only hold the tree together, and `why`.
+
+    `began` is the time of day at which the run did, "" where nobody knows.
+    """
 
     run: dict[str, Any]
     inner: list[int]
     why: list[str] = []
+    began: str = ""
 
 
-def page(run: Run, *, why: list[str] | None = None) -> str:
-    """The page of a run; `why` are the lines of its explanation."""
+def page(run: Run, *, why: list[str] | None = None, began: str = "") -> str:
+    """The page of a run; `why` are the lines of its explanation, `began` is when it was."""
     files = resources.files("executive.journal.dumps") / "viewer"
     script = "\n".join((files / name).read_text(encoding="utf-8") for name in _SCRIPTS)
     style = (files / "viewer.css").read_text(encoding="utf-8")
     template = Template((files / "page.html").read_text(encoding="utf-8"))
-    told = Page(run=run.dumped(), inner=sorted(inner(run)), why=why or [])
+    told = Page(run=run.dumped(), inner=sorted(inner(run)), why=why or [], began=began)
     data = msgspec.json.encode(_rounded(printable_data(msgspec.to_builtins(told))))
     policy = (
         f"default-src 'none'; script-src {_hash(script)}; style-src {_hash(style)}; "
@@ -83,6 +87,9 @@ def fallback(run: Run) -> str:
     ending = run.outcome
     if ending is None:
         return "The run has no outcome yet. This page needs JavaScript to show it."
+    done, count = run.of_jobs
+    if count > 1:
+        return f"{done} of {count} jobs done. This page needs JavaScript to show the rest."
     how = verdict(None) if ending.code == "done" else f"{verdict(ending)}."
     return f"{how} This page needs JavaScript to show the rest."
 

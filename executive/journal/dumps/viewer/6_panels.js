@@ -64,7 +64,7 @@ function nowPanel() {
   if (!leaves.length) parts.push(el("div", { class: "dim", textContent: "nothing" }));
   const pose = poses[lastBefore(poses, now)], wrong = healthAt(now), facts = [];
   const job = list(run.jobs).filter((j) => list(j.states).length && j.states[0][0] <= now);
-  for (const j of job.slice(-4)) facts.push([`job ${j.number}`, `${j.text}: ${j.states[lastBefore(j.states, now)][1]}${j.urgent ? " (urgent)" : ""}`]);
+  for (const j of job) facts.push([`job ${j.number}`, `${j.text}: ${j.states[lastBefore(j.states, now)][1]}${j.urgent ? " (urgent)" : ""}`]);
   if (pose) facts.push(["pose", `x ${fixed(pose[1], 2)} m, y ${fixed(pose[2], 2)} m, heading ${fixed(pose[3] * 180 / Math.PI, 0)}°`]);
   const mode = modes[lastBefore(modes, now)];
   if (mode) facts.push(["body", mode[2]]);

@@ -166,13 +166,17 @@ function onKey(event) {
   actions[event.key]();
 }
 
+const ENDED = new Set(["done", "failed", "cancelled"]);
+
 function head() {
   const ending = list(run.endings).at(-1), badge = $("badge");
-  const verdict = !ending ? "no outcome yet" : ending.code === "done" ? "✓ done" : `✗ ${ending.code.replaceAll("_", " ")}`;
+  const jobs = list(run.jobs).map((job) => list(job.states).at(-1)?.[1]), done = jobs.filter((state) => state === "done").length;
+  const many = jobs.length > 1, well = many ? done === jobs.length : ending?.code === "done", over = jobs.every((state) => ENDED.has(state));
+  const verdict = many ? `${well ? "✓ " : ""}${done} of ${jobs.length} jobs done` : !ending ? "no outcome yet" : ending.code === "done" ? "✓ done" : `✗ ${ending.code.replaceAll("_", " ")}`;
   badge.textContent = verdict;
-  badge.classList.add(!ending ? "open" : ending.code === "done" ? "done" : "failed");
+  badge.classList.add(!ending || (many && !over) ? "open" : well ? "done" : "failed");
   if (ending?.cause) badge.title = ending.cause;
-  const about = run.about || {}, facts = [about.world, about.runtime, about.seed !== undefined ? `seed ${words(about.seed)}` : "", clock(END - BEGIN)];
+  const about = run.about || {}, facts = [page.began, about.robot, about.world, about.runtime, about.seed !== undefined ? `seed ${words(about.seed)}` : "", clock(END - BEGIN)];
   facts.push(`${order.length} nodes`);
   if (run.recoveries) facts.push(run.recoveries === 1 ? "1 recovery" : `${run.recoveries} recoveries`);
   if (run.left_out) facts.push(`a very long run: ${run.left_out} details are left out`);

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from executive.frontends.past_runs import printing
 from executive.journal import past_runs, successor
 from executive.journal.why import told
 from robot.errors import ConfigError
@@ -101,3 +102,17 @@ def test_a_folder_from_which_the_journal_is_gone_is_told_from_one_that_is_not_th
         past_runs.find(str(run), base=run.parent)
     with pytest.raises(ConfigError, match="there is no run"):
         past_runs.find(str(run) + "-other", base=run.parent)
+
+
+def test_a_run_of_several_jobs_is_not_done_because_its_last_one_is(run):
+    jobs = [(1, "running"), (1, "cancelled"), (2, "running"), (2, "done"), (3, "running")]
+    jobs.append((3, "done"))
+    with (run / "journal.jsonl").open("ab") as file:
+        for number, (job, state) in enumerate(jobs, start=1):
+            file.write(
+                b'{"n":%d,"t_s":%d.0,"event":"job","job":%d,"state":"%s","text":"nod"}\n'
+                % (number, number, job, state.encode())
+            )
+    found = past_runs.look(run)
+    assert (found.jobs_done, found.jobs) == (2, 3)
+    assert printing._how(found) == "2 of 3 done"

@@ -18,6 +18,7 @@ from executive.journal.dumps.formats import render
 from executive.journal.dumps.html import Page, embedded, page
 from executive.journal.run import Run
 from executive.journal.snapshot import inner
+from executive.journal.why import why
 from executive.skills.pick import PickParams
 from robot.printable import printable, printable_data
 from tests.fakes.long_run import LongRun
@@ -222,3 +223,36 @@ def test_hostile_names_are_shown_as_they_are(tmp_path):
     assert [name for _, name in rows(dom)] == [printable(name) for name in HOSTILE]
     assert "<img" not in dom
     assert dom.count("<script") == 2
+
+
+def six_jobs() -> Run:
+    """A prompt's run: four jobs that were cancelled, and two that are done, the last among them."""
+    lines = [line("run", text="prompt", world="kitchen", robot="juno", seed=1)]
+    lines.append(line("tree", nodes=[[0, -1, "jobs", "jobs"], [1, 0, "skill", "nod"]]))
+    for job in range(1, 7):
+        how = "cancelled" if job < 5 else "done"
+        lines.append(line("job", t_s=job, job=job, state="running", text=f"errand {job}"))
+        lines.append(line("job", t_s=job + 0.5, job=job, state=how, text=f"errand {job}"))
+        lines.append(line("outcome", t_s=job + 0.5, code=how))
+    return read(lines)
+
+
+def test_a_run_of_several_jobs_is_told_by_all_of_them_without_scripts_too():
+    run = six_jobs()
+    assert run.of_jobs == (2, 6)
+    assert "2 of 6 jobs done." in page(run)
+    assert "That is of one job; 2 of 6 jobs are done." in why(run).lines
+    began = Parts(page(run, began="2026-01-01 12:00")).script("application/json")
+    assert json.loads(began)["began"] == "2026-01-01 12:00"
+
+
+@needs_browser
+@pytest.mark.slow
+def test_the_browser_shows_all_jobs_and_when_and_with_what_robot_it_was(tmp_path):
+    dom = seen(tmp_path, six_jobs())
+    badge = re.search(r'id="badge" class="([^"]*)"[^>]*>([^<]*)<', dom)
+    assert badge is not None
+    assert badge.groups() == ("badge failed", "2 of 6 jobs done")
+    assert "juno · kitchen" in dom
+    for job in range(1, 7):
+        assert f"errand {job}" in dom
