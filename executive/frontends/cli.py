@@ -379,6 +379,8 @@ def main() -> None:
         wish = _wish_in(ended)
         if wish is not None and not completes:
             sys.exit(ended_by(wish, as_json="--json" in sys.argv))
+        if ended.code == ExitStatus.INVALID and sys.argv[1:2] and sys.argv[1].startswith("-"):
+            say(f"Those of the prompt stand behind its name: humanoid repl {sys.argv[1]}", err=True)
         sys.exit(_whole(ended.code))
     except (Exception, KeyboardInterrupt) as error:  # the last words must not be a bare traceback
         if completes:  # a shell's line is no place for words

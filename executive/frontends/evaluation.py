@@ -49,6 +49,8 @@ def evaluate(options: Eval) -> int:
         ConfigError: if a mission, a file or a name is wrong; nothing has been run then.
         ProcessError: a worker died.
     """
+    if options.resume is not None:
+        folder_to_resume(options.resume)  # before a word is said of what is to be run
     options = evaluation_asked.as_before(options)
     REALITY.under(options.reality)  # so that one that is not there is said before anything is run
     moved = _moved(options) if options.homes else None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Iterable
 from pathlib import Path
@@ -81,7 +82,7 @@ def write(path: Path, data: bytes, *, run: Path) -> None:
         make_below(base, place)
         write_ordinary(path, data)
     except OSError as error:
-        raise ConfigError(f"{path} cannot be written: {error.strerror}") from None
+        raise _unwritten(path, error) from None
 
 
 def put(path: Path, text: str, *, word: str = "Done") -> None:
@@ -94,5 +95,12 @@ def put(path: Path, text: str, *, word: str = "Done") -> None:
     try:
         write_ordinary(path, text.encode(), anew=True)
     except OSError as error:
-        raise ConfigError(f"{path} cannot be written: {error.strerror}") from None
+        raise _unwritten(path, error) from None
     say(f"{word}: {path}")
+
+
+def _unwritten(path: Path, error: OSError) -> ConfigError:
+    cure = "name another place, or begin where you may write"
+    if error.errno in (errno.ENOSPC, errno.EDQUOT):
+        cure = "make room there, or name another place"
+    return ConfigError([Problem(f"{path} cannot be written: {error.strerror}", suggestion=cure)])

@@ -23,8 +23,11 @@ from rich.segment import Segment
 from rich.text import Text
 
 from executive.frontends.streams import Lasting
+from robot.clock import Clock, WallClock
 from robot.printable import printable, printable_data, printable_json
 
+SILENT_S = 2.0
+"""So long a command may be silent where it draws no bar."""
 PIPE_WIDTH = 160
 """Of tables where nobody's terminal says how wide they may be."""
 
@@ -109,6 +112,25 @@ class Screen(Console):
     def render_str(self, text: str, **options: Any) -> Text:
         """A text to be measured and drawn: as wide as it is when it is written out."""
         return super().render_str(printable(text), **options)
+
+
+class Waiting:
+    """Says once what is waited for, where that takes a while and no bar is drawn.
+
+    A pipe and a log have no bar: who waits there for ten seconds would see nothing at all.
+    """
+
+    def __init__(self, text: str, *, clock: Clock | None = None) -> None:
+        """Wait from now on for what the text says."""
+        self._text, self._clock = text, clock or WallClock()
+        self._due_s = self._clock.now_s() + SILENT_S
+
+    def look(self) -> None:
+        """Say it, if it is time to and it has not been said."""
+        if self._text and self._clock.now_s() >= self._due_s:
+            if not Screen(err=True).is_terminal:
+                say(f"{self._text} ...", err=True)
+            self._text = ""
 
 
 def table_screen() -> Screen:

@@ -21,6 +21,8 @@ Path = tuple[str | int, ...]
 
 SHOWN = 60
 """Characters of a value that a message repeats."""
+MOST_UNITS = 3
+"""Names that differ by their unit: `yaw_deg` and `yaw_rad`."""
 MOST_NAMES = 12
 """Names that a message lists before it says how many more there are."""
 
@@ -51,7 +53,10 @@ def _type(kind: Any) -> inspect.Type:
 
 
 def nearest(name: str, valid: Sequence[str]) -> str:
-    """`did you mean 'x'?`, or the list of what is valid."""
+    """`did you mean 'x'?`, or the list of what is valid; of one quantity every unit is named."""
+    units = sorted(one for one in valid if one.startswith(f"{name}_"))
+    if 1 < len(units) <= MOST_UNITS:
+        return f"did you mean {' or '.join(map(repr, units))}?"
     if close := closest(name, valid):
         return f"did you mean {close!r}?"
     return "valid: " + listed(sorted(valid))

@@ -43,6 +43,9 @@ def record(run: str | None, output: Path | None) -> int:
         ConfigError: there is no such run, what writes it is not installed, or it cannot be written.
     """
     check_installed("mcap")
+    if output is not None and str(output) == "-":
+        text = "a recording cannot go to standard output: its index is written when it ends"
+        raise ConfigError([Problem(text, suggestion="name a file: -o run.mcap")])
     folder = past_runs.find(run)
     path = output or _free(folder)
     refuse_inputs([path], records_of(folder))
@@ -150,11 +153,19 @@ def _finish(process: subprocess.Popen[bytes], path: Path) -> None:
 
 @contextmanager
 def _opened(path: Path) -> Generator[BinaryIO]:
-    """A new file. Raises ConfigError if it cannot be made, or the disk takes no more of it."""
+    """A new file, which is gone again if the disk takes no more of it: nobody could read it.
+
+    Raises:
+        ConfigError: that is so, or it cannot be made.
+    """
+    made = False
     try:
         with path.open("xb") as file:
+            made = True
             yield file
     except OSError as error:
+        if made:
+            path.unlink(missing_ok=True)
         text = f"cannot be written: {error.strerror}"
         cure = "make room there, or name a file with -o"
         raise ConfigError([Problem(text, str(path), suggestion=cure)]) from None

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
-from executive.frontends.output import Screen, say, write_json
+from executive.frontends.output import Screen, Waiting, say, write_json
 from executive.frontends.service import messages as m
 from executive.frontends.service import place as places
 from executive.frontends.service import stopping, telling
@@ -141,8 +141,10 @@ def down(name: str | None) -> int:
         if refused:
             return refused
     until_s = time.monotonic() + DOWN_S
+    waiting = Waiting("coming to a stand")
     with Screen(err=True).status("coming to a stand"):
         while places.is_up(place):
+            waiting.look()
             if time.monotonic() > until_s:
                 pid = f" (pid {running.pid})" if running else ""
                 say(f"{place.name} is still up{pid}: humanoid logs says more", err=True)

@@ -19,7 +19,7 @@ import msgspec
 import robot
 from executive.frontends import streams
 from executive.frontends.exit import ended_by
-from executive.frontends.output import Screen, say, tell_of_mistakes
+from executive.frontends.output import Screen, Waiting, say, tell_of_mistakes
 from executive.frontends.service import place as places
 from executive.frontends.service.options import Up
 from executive.runs import run_folder
@@ -69,7 +69,9 @@ def up(options: Up) -> int:
 
 def _until_listening(name: str, process: subprocess.Popen[bytes]) -> places.Place | None:
     """The place of a process, once it listens; None if it ends before."""
+    waiting = Waiting("starting the robot")
     while process.poll() is None:
+        waiting.look()
         for place in places.places_up():
             running = places.running(place) if place.name == name else None
             if running is not None and running.pid == process.pid:

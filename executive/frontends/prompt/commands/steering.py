@@ -13,6 +13,8 @@ from executive.missions import fault_plans
 from robot.errors import ConfigError
 from robot.files.misfits import listed, shown
 
+INJECTED = "For example: inject shove strength_n_s=8 towards_deg=90"
+
 
 def commands(shell: Shell) -> tuple[Command, ...]:
     """Every one of them, in the order in which `help` shows them."""
@@ -231,11 +233,15 @@ class _Steering:
     def inject(self, rest: str) -> None:
         if not rest:
             self._shell.out("Faults: " + ", ".join(fault_plans.names()))
-            self._shell.out("For example: inject shove strength_n_s=8 towards_deg=90")
+            self._shell.out(INJECTED)
             return
-        fault = fault_plans.in_words(rest)
         where = self._shell.robot.where
-        fault_plans.verify(fault, where.world, where.description)
+        try:
+            fault = fault_plans.in_words(rest)
+            fault_plans.verify(fault, where.world, where.description)
+        except ConfigError as error:
+            self._shell.refuse(f"Not done: {error}", INJECTED)
+            return
         self._shell.robot.inject(fault)
         self._shell.out(f"Injected: {rest}")
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from executive.frontends.new_files import refuse_inputs
+from executive.frontends.new_files import put, refuse_inputs, write
 from robot.errors import ConfigError
 
 
@@ -32,3 +32,12 @@ def test_two_outputs_are_two_files(name):
 def test_others_are_nobodys_business():
     refuse_inputs([Path("new"), Path("folder/log"), None], [Path("log"), Path("gone"), None])
     refuse_inputs([Path("n" * 5000)], [Path("log")])
+
+
+@pytest.mark.parametrize("begin", [
+    lambda: put(Path("log/new"), "text"), lambda: write(Path("log/new"), b"", run=Path("run")),
+])  # fmt: skip
+def test_where_nothing_can_be_written_another_place_is_the_cure(begin):
+    with pytest.raises(ConfigError, match="cannot be written") as refused:
+        begin()
+    assert "another place" in (refused.value.problems[0].suggestion or "")

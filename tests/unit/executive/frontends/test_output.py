@@ -17,6 +17,7 @@ from rich.table import Table
 from rich.text import Text
 
 from executive.frontends import cli, output, parse
+from robot.clock import SimulatedClock
 from robot.errors import ConfigError
 from robot.printable import is_printable, printable
 
@@ -259,3 +260,26 @@ def test_nobody_else_writes():
 )  # fmt: skip
 def test_writing_is_seen(code):
     assert written_by(ast.parse(code))
+
+
+def test_who_waits_where_no_bar_is_drawn_is_told_once_for_what(capsys):
+    clock = SimulatedClock()
+    waiting = output.Waiting("starting the robot", clock=clock)
+    waiting.look()
+    clock.set(0.9 * output.SILENT_S)
+    waiting.look()
+    assert capsys.readouterr() == ("", "")
+    for t_s in (1.1 * output.SILENT_S, 10.0):
+        clock.set(t_s)
+        waiting.look()
+    assert capsys.readouterr() == ("", "starting the robot ...\n")
+
+
+def test_who_gives_an_option_of_the_prompt_to_no_command_is_told_where_it_belongs(
+    monkeypatch, capsys
+):
+    monkeypatch.setattr("sys.argv", ["humanoid", "--view"])
+    with pytest.raises(SystemExit) as ended:
+        cli.main()
+    assert ended.value.code == 2
+    assert "humanoid repl --view" in capsys.readouterr().err

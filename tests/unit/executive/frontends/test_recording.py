@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import errno
 import io
+import os
 import signal
 import subprocess
 import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import msgspec
@@ -251,3 +254,26 @@ def test_a_run_that_went_on_is_recorded_beside_what_was_recorded_before(folder):
     assert record.record(str(folder), None) == 0
     assert record.record(str(folder), None) == 0
     assert {path.name for path in folder.glob("*.mcap")} == {"recorded.mcap", "recorded-2.mcap"}
+
+
+def test_a_recording_goes_into_no_file_that_is_called_as_standard_output(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ConfigError, match="cannot go to standard output"):
+        record.record("any", Path("-"))
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_disk_that_is_full_leaves_no_stump_whose_name_is_taken_then(folder, monkeypatch):
+    for name, lines in ((journal.FILE, LINES), (motion.FILE, MOVES)):
+        grow(folder, name, b"".join(lines))
+
+    def full(_folder, file, *_args, **_more):
+        file.write(b"some of it")
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(record, "_follow", full)
+    output = folder.parent / "out.mcap"
+    for _ in range(2):
+        with pytest.raises(ConfigError, match="No space left"):
+            record.record(str(folder), output)
+        assert not output.exists()

@@ -7,7 +7,7 @@ import pytest
 
 from robot.errors import ConfigError
 from robot.files import config, quantities, yaml_nodes
-from robot.files.misfits import misfits
+from robot.files.misfits import misfits, nearest
 from robot.model.description import RobotDescription
 from robot.reality import faults
 from sim.world_schema import World
@@ -165,3 +165,9 @@ def test_what_a_file_of_another_kind_holds_is_not_repeated(tmp_path):
         config.load(path, Tree)
     (problem,) = caught.value.problems
     assert problem.message == "the whole is a text, and must be a mapping of keys to values"
+
+
+def test_a_quantity_without_its_unit_is_asked_for_with_every_one_that_it_may_have():
+    """For `yaw: 90` only `yaw_rad` was named."""
+    assert nearest("yaw", ["x_m", "yaw_deg", "yaw_rad"]) == "did you mean 'yaw_deg' or 'yaw_rad'?"
+    assert nearest("turn", ["turn_rad", "x_m"]) == "did you mean 'turn_rad'?"

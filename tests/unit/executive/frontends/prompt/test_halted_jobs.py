@@ -276,3 +276,9 @@ def test_it_is_known_how_often_there_had_been_a_stop_at_any_time(shell: Shell):
     assert [shell.stops_by(at_s) for at_s in (first_s, second_s, now_s(), None)] == [0, 1, 2, 2]
     shell.line("walk to the shelf", stops=shell.stops_by(second_s))
     assert not open_jobs(shell)
+
+
+def test_a_fault_that_there_is_not_is_refused_with_an_example(shell: Shell):
+    shell.line("inject push impulse_n_s=70")
+    assert said[-1].strip().startswith("For example: inject ")
+    assert shell.refused == 1
