@@ -149,7 +149,8 @@ class _Mended:
             return
         place = path[1] if len(path) > 1 else None
         if inside.kind != "list" or not isinstance(place, int):
-            if group in STAND_INS or group not in World.__struct_fields__:  # or it is misspelt
+            misspelt = group not in World.__struct_fields__ and inside.kind in ("list", "map")
+            if group in STAND_INS or misspelt:  # a number stands for nothing that has an id
                 self.ids = None
             self.start_is_known &= group != "start"
             del self.node.entries[group]

@@ -10,6 +10,7 @@ import msgspec
 from executive.missions.problems import Problems
 from executive.missions.reading import Reader
 from executive.missions.schema import MissionRecord, ParameterRecord
+from robot.errors import ConfigError, Problem
 from robot.files import config
 from robot.files.yaml_nodes import Node, parse, read_text, text_node
 
@@ -46,6 +47,18 @@ def find(name: str) -> Path:
     return next((one for one in shipped() if one.stem == name), path)
 
 
+def _check_shipped(path: Path) -> None:
+    """Say of a file that is not here that a shipped mission is called like it, if one is.
+
+    Raises:
+        ConfigError: so it is.
+    """
+    shipped_one = any(one.name == path.name for one in shipped())
+    if str(path) == path.name and shipped_one and not os.path.lexists(path):
+        cure = f"the one that comes along is called {path.stem!r}, without {SUFFIX}"
+        raise ConfigError([Problem("there is no such file here", str(path), suggestion=cure)])
+
+
 def shipped() -> list[Path]:
     """The shipped missions."""
     return sorted(FOLDER.glob(f"*{SUFFIX}"))
@@ -62,7 +75,9 @@ def load(path: Path, problems: Problems, *, text: str | None = None) -> Mission 
     Raises:
         ConfigError: it cannot be read at all.
     """
-    text = read_text(path) if text is None else text
+    if text is None:
+        _check_shipped(path)
+        text = read_text(path)
     node = parse(text, str(path), begin_with="humanoid mission new NAME")
     if node.kind != "map":
         problems.add(node, "a mission is a mapping", "begin with: name: ...")

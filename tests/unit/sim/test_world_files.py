@@ -270,3 +270,16 @@ def test_footprints_overlap_as_rectangles_do():
     assert not a.overlaps(Footprint((1.5, 1.0), (0.5, 0.5), math.pi / 4))  # only their boxes do
     assert a.distance_m((1.3, 0.9)) == pytest.approx(0.5)
     assert a.distance_m((0.2, -0.1)) == 0.0
+
+
+def test_a_misspelt_key_that_holds_no_list_hides_no_other_mistake(read):
+    """With `strat: 1` neither the unknown place nor what overlaps was named."""
+    text = GOOD.replace("on: desk", "on: dsk").replace("furniture:", (
+        "  - {id: hall, at_m: [1, 0], size_m: [4, 4]}\nfurniture:"
+    )) + "strat: 1\n"  # fmt: skip
+    with pytest.raises(ConfigError) as error:
+        read(text)
+    told = [problem.message for problem in error.value.problems]
+    assert [text for text in told if "unknown key 'strat'" in text]
+    assert [text for text in told if "unknown place 'dsk'" in text]
+    assert [text for text in told if "overlaps" in text]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import jsonschema
 import pytest
@@ -12,8 +13,9 @@ from hypothesis import strategies as st
 
 from executive.frontends.missions import commands
 from executive.missions.check import Options
-from executive.missions.load import FOLDER, shipped
+from executive.missions.load import FOLDER, load, shipped
 from executive.missions.plan import forecast
+from executive.missions.problems import Problems
 from executive.missions.template import template
 from executive.skills.inspect import InspectParams
 from executive.skills.navigate import NavigateParams
@@ -729,3 +731,12 @@ def test_what_is_no_name_is_not_answered_with_a_question(write):
     steps = "  - pick: {object: red cup}\nexpect:\n  - holding: maybe\n"
     (told,) = problems(write(mission(steps)))
     assert "there is no object 'maybe' in this world" in told and "?" not in told
+
+
+def test_a_file_that_is_not_here_and_that_comes_along_is_named_as_that(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ConfigError) as refused:
+        load(Path("hello.yaml"), Problems())
+    assert "'hello'" in (refused.value.problems[0].suggestion or "")
+    Path("hello.yaml").write_text("steps: []")
+    load(Path("hello.yaml"), Problems())  # what is here is read
