@@ -134,7 +134,7 @@ class _Outlines:
         qx, qy = np.abs(c * dx + s * dy) - half[:, 0], np.abs(c * dy - s * dx) - half[:, 1]
         box = np.hypot(np.maximum(qx, 0.0), np.maximum(qy, 0.0))
         box += np.minimum(np.maximum(qx, qy), 0.0)
-        far = np.where(self._round[of], np.hypot(dx, dy) - half[:, 0], box)
+        far: Array = np.where(self._round[of], np.hypot(dx, dy) - half[:, 0], box)
         edge = min(x - x0, x1 - x, y - y0, y1 - y)
         return far <= min(edge, float(far.min(initial=math.inf))) + slack_m
 

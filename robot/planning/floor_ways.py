@@ -104,7 +104,8 @@ class FloorWays:
         while nodes[-1] != (self._from[0] - top, self._from[1] - left):
             index = int(self._before[nodes[-1]])
             nodes.append((index // columns, index % columns))
-        points = self._floor.points((np.array(nodes[::-1]) + self._corner) * STRIDE)
+        way = [(row + top, column + left) for row, column in reversed(nodes)]
+        points = self._floor.points(np.array(way) * STRIDE)
         return self._pulled_tight(np.concatenate([[self._start], points[1:-1], [goal]]))
 
     def _pulled_tight(self, points: Array) -> Array:
