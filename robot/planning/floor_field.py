@@ -117,11 +117,12 @@ class _Outlines:
 
     def __init__(self, solids: tuple[Solid, ...], bounds_m: Bounds) -> None:
         self._bounds_m = bounds_m
-        self._at = np.array([s.X_WG.p[:2] for s in solids]).reshape(-1, 2)
-        self._half = np.array([_half_m(s) for s in solids]).reshape(-1, 2)
+        self._at: Array = np.array([s.X_WG.p[:2] for s in solids]).reshape(-1, 2)
+        self._half: Array = np.array([_half_m(s) for s in solids]).reshape(-1, 2)
         turns = np.array([s.X_WG.yaw_rad if _upright(s) else 0.0 for s in solids])
-        self._cos, self._sin = np.cos(turns), np.sin(turns)
-        self._round = np.array([_is_round(s) for s in solids], dtype=bool)
+        self._cos: Array = np.cos(turns)
+        self._sin: Array = np.sin(turns)
+        self._round: numerics.Mask = np.array([_is_round(s) for s in solids], dtype=bool)
 
     def within(
         self, of: numerics.Indices, column_row: tuple[float, float], slack_m: float
@@ -132,11 +133,12 @@ class _Outlines:
         dx, dy = x - self._at[of, 0], y - self._at[of, 1]
         c, s, half = self._cos[of], self._sin[of], self._half[of]
         qx, qy = np.abs(c * dx + s * dy) - half[:, 0], np.abs(c * dy - s * dx) - half[:, 1]
-        box = np.hypot(np.maximum(qx, 0.0), np.maximum(qy, 0.0))
+        box: Array = np.hypot(np.maximum(qx, 0.0), np.maximum(qy, 0.0))
         box += np.minimum(np.maximum(qx, qy), 0.0)
-        far: Array = np.where(self._round[of], np.hypot(dx, dy) - half[:, 0], box)
+        circle: Array = np.hypot(dx, dy) - half[:, 0]
+        far: Array = np.where(self._round[of], circle, box)
         edge = min(x - x0, x1 - x, y - y0, y1 - y)
-        return far <= min(edge, float(far.min(initial=math.inf))) + slack_m
+        return far <= min(edge, float(np.min(far, initial=math.inf))) + slack_m
 
 
 def _upright(solid: Solid) -> bool:
