@@ -10,7 +10,7 @@ import mujoco
 
 from robot.model import mjcf
 from robot.model.description import RobotDescription
-from sim import atlas, bodies, motors, placing
+from sim import atlas, bodies, motors, person_body, placing
 from sim.paint import Paint
 from sim.world_schema import World
 
@@ -46,7 +46,7 @@ def furnish(spec: mujoco.MjSpec, world: World) -> None:
     for item in world.furniture:
         bodies.add_furniture(spec, item, paint)
     for person in world.people:
-        bodies.add_person(spec, person, paint)
+        person_body.add_person(spec, person, paint)
     bodies.add_sills(spec)
     poses = placing.object_poses(world)
     for item in world.objects:

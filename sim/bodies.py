@@ -1,4 +1,4 @@
-"""Walls, furniture, people and objects as MuJoCo bodies.
+"""Walls, furniture and objects as MuJoCo bodies.
 
 Friction and contact of what is grasped are the finger pads' (they have priority); these are for
 standing on each other. Things that stand still are bodies without a joint, each its own, so that
@@ -15,10 +15,8 @@ from robot.messages import Obstacle
 from robot.se3 import SE3
 from sim import atlas, furniture, thing_bodies
 from sim.paint import Paint
-from sim.person_arm import ArmSide, links
-from sim.rays import UNSENSED
 from sim.things.making import made
-from sim.world_schema import Furniture, Object, Person
+from sim.world_schema import Furniture, Object
 
 FLOOR_FRICTION = [0.9, 0.01, 0.0005]
 WOOD_FRICTION = [0.5, 0.005, 0.0001]
@@ -30,8 +28,6 @@ SLIDES, ROLLS = 3, 6
 at 6 cm/s until something stood in its way."""
 BOX = mujoco.mjtGeom.mjGEOM_BOX
 CYLINDER = mujoco.mjtGeom.mjGEOM_CYLINDER
-CAPSULE = mujoco.mjtGeom.mjGEOM_CAPSULE
-SPHERE = mujoco.mjtGeom.mjGEOM_SPHERE
 
 
 def add_wall(spec: mujoco.MjSpec, wall: Obstacle, paint: Paint) -> None:
@@ -110,64 +106,6 @@ def _show(
         type=kind, size=half_m, pos=[0, 0, z_m], material=material,
         contype=0, conaffinity=0, mass=0.0,
     )  # fmt: skip
-
-
-def add_person(spec: mujoco.MjSpec, person: Person, paint: Paint) -> None:
-    """A figure of capsules that stands; a mocap body, so that a fault can move it."""
-    body = _body(spec, f"person/{person.id}", atlas.pose_of(person))
-    body.mocap = True
-    scale = person.height_m / 1.70
-    skin, shirt, trousers = paint.color("skin"), paint.color(person.color), paint.color("charcoal")
-    hair, shoes = paint.color("brown"), paint.color("black")
-    limbs = [  # from, to, radius of a figure of 1.70 m; material
-        ((0, 0.085, 0.10), (0, 0.085, 0.80), 0.070, trousers),
-        ((0, -0.085, 0.10), (0, -0.085, 0.80), 0.070, trousers),
-        ((0.02, 0.085, 0.04), (0.14, 0.085, 0.04), 0.040, shoes),
-        ((0.02, -0.085, 0.04), (0.14, -0.085, 0.04), 0.040, shoes),
-        ((0, 0, 0.95), (0, 0, 1.25), 0.140, shirt),
-        ((0, 0.12, 1.34), (0, -0.12, 1.34), 0.070, shirt),
-        ((0, 0.19, 1.34), (0.02, 0.23, 1.08), 0.045, shirt, "left_upper_arm"),
-        ((0, -0.19, 1.34), (0.02, -0.23, 1.08), 0.045, shirt, "right_upper_arm"),
-        ((0.02, 0.23, 1.06), (0.10, 0.22, 0.84), 0.036, skin, "left_forearm"),
-        ((0.02, -0.23, 1.06), (0.10, -0.22, 0.84), 0.036, skin, "right_forearm"),
-        ((0, 0, 1.38), (0, 0, 1.46), 0.050, skin),
-    ]
-    for start, end, radius, material, *part in limbs:
-        ends = [value * scale for value in (*start, *end)]
-        name = f"person/{person.id}/{part[0]}" if part else ""
-        body.add_geom(
-            name=name, type=CAPSULE, fromto=ends, size=[radius * scale, 0, 0], material=material
-        )
-    for p, radius, material in (
-        ((0.0, 0.0, 1.585), 0.105, skin), ((-0.02, 0.0, 1.605), 0.108, hair),
-    ):  # fmt: skip
-        place = [value * scale for value in p]
-        body.add_geom(type=SPHERE, pos=place, size=[radius * scale, 0, 0], material=material)
-    sides: tuple[tuple[ArmSide, float], ...] = (("left", 1.0), ("right", -1.0))
-    for side, out in sides:
-        _add_hand(body, person, side, out * scale, skin)
-
-
-def _add_hand(
-    body: mujoco.MjsBody, person: Person, side: ArmSide, out: float, material: str
-) -> None:
-    """A palm with fingers and a thumb, below the forearm; drawn only (`sim.person_arm`)."""
-    scale = abs(out)
-    *_, palm, fingers, thumb = links(person.id, side)
-    parts = (  # a point, radius and length along the forearm of a figure of 1.70 m
-        (palm, (0.131, 0.217, 0.756), 0.028, 0.035),
-        (fingers, (0.150, 0.222, 0.704), 0.011, 0.050),
-        (thumb, (0.158, 0.195, 0.715), 0.011, 0.050),
-    )
-    for name, (x, y, z), radius, length in parts:
-        low = (x + 0.17 * length, y, z - 0.49 * length)
-        high = (x - 0.17 * length, y, z + 0.49 * length)
-        ends = [scale * low[0], out * low[1], scale * low[2]]
-        ends += [scale * high[0], out * high[1], scale * high[2]]
-        body.add_geom(
-            name=name, type=CAPSULE, fromto=ends, size=[radius * scale, 0, 0], material=material,
-            contype=0, conaffinity=0, group=UNSENSED,
-        )  # fmt: skip
 
 
 def _body(spec: mujoco.MjSpec, name: str, pose: SE3) -> mujoco.MjsBody:

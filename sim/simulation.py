@@ -190,6 +190,9 @@ class SimulatedWorld:
         for item in content["objects"]:
             if not item["kind"]:
                 del item["kind"], item["variant"]
+        for person in content["people"]:
+            if person["posture"] == "stands":
+                del person["posture"]
         return msgspec.json.encode(content)
 
     def objects(self) -> Mapping[str, Begin]:

@@ -117,13 +117,22 @@ class Behaviour(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     answers: str = "Yes."
 
 
+Posture = Literal["stands", "sits", "lies"]
+
+
 class Person(Entry, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """Somebody who stands there, and does what their behaviour says."""
+    """Somebody who is there, and does what their behaviour says.
+
+    Attributes:
+        posture: who sits does so on a seat of 0.45 m, which is not there by that; who lies is on
+            the back, the head where they face.
+    """
 
     at_m: tuple[q.Place, q.Place]
     yaw_deg: q.Heading = 0.0
     height_m: q.Height = 1.70
     color: q.Line = "blue"
+    posture: Posture = "stands"
     behaviour: Behaviour = Behaviour()
 
 

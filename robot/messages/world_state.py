@@ -140,6 +140,8 @@ class Track(msgspec.Struct, frozen=True, kw_only=True):
     `seen_s` is when it was last seen (-inf: never, then X_WO is None); `missing` is set when its
     place was in clear view and it was not there; `held_by` while a hand has it. `unlike` says what
     something is that was taken for it ("white", "the rice box"), until it is seen elsewhere.
+    Of people whom the robot's own senses tell of: `covariance` row by row of x, y [m²], () where it
+    is unknown, and `posture`: "stands", "sits", "lies", with ", a hand up" where one is.
     """
 
     id: str
@@ -148,6 +150,8 @@ class Track(msgspec.Struct, frozen=True, kw_only=True):
     missing: bool = False
     held_by: Side | None = None
     unlike: str = ""
+    covariance: tuple[float, ...] = ()
+    posture: str = ""
 
 
 class WorldState(Message, frozen=True, kw_only=True):

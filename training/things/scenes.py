@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from robot.messages import RgbdImage
 from robot.se3 import SE3, Array, Vector3
-from sim import bodies, thing_bodies
+from sim import person_body, thing_bodies
 from sim.camera.by_rays import Tracer
 from sim.camera.flaws import CameraFlaws
 from sim.camera.scene_view import Pinhole
@@ -95,7 +95,7 @@ class Scene:
         colors = sorted(COLORS)
         somebody = Person(id=PERSON, at_m=(0.0, 0.0), height_m=float(rng.uniform(1.5, 1.95)),
                           color=colors[int(rng.integers(len(colors)))])  # fmt: skip
-        bodies.add_person(spec, somebody, paint)
+        person_body.add_person(spec, somebody, paint)
         self._model = spec.compile()
         self._data = mujoco.MjData(self._model)
         names = [f"thing/{number}" for number in range(len(self._items))]
