@@ -44,7 +44,6 @@ class Oracle:
         rays: Rays,
         rng: np.random.Generator,
         pose_error_m: float = POSE_ERROR_M,
-        sees_things: bool = True,
     ) -> None:
         """Look at a simulation; draws every error from `rng`.
 
@@ -56,12 +55,10 @@ class Oracle:
             rays: for what is hidden.
             rng: of every error.
             pose_error_m: how far from the truth objects are sighted.
-            sees_things: whether objects are sighted at all, or people alone.
         """
         self._model, self._data = model, data
         self._rays, self._rng = rays, rng
         self._pose_error_m = pose_error_m
-        self._sees_things = sees_things
         self._base_q = int(model.jnt_qposadr[model.body_jntadr[model.body(robot.base_body).id]])
         self._camera = robot.sensors.camera
         tan_y = math.tan(self._camera.fovy_rad / 2)
@@ -110,7 +107,7 @@ class Oracle:
         """What is inside the head camera's view, in range and not hidden."""
         camera = self._data.site(self._camera.site)
         X_WC = SE3.from_rotation(camera.xmat.reshape(3, 3), camera.xpos)
-        targets = {**(self._objects if self._sees_things else {}), **self._people}
+        targets = {**self._objects, **self._people}
         seen = self._sight(targets, X_WC, stamp_s)
         return Sightings(
             stamp_s=stamp_s,

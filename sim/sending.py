@@ -72,8 +72,8 @@ class Sending:
     ) -> None:
         """Build every sensor; each draws its noise from its own child of `rng`.
 
-        Where the robot's own eyes find the things (`eyes`), the oracle sights none of them, and the
-        map tells no more of them than their names do. Where its own lidar finds the robot
+        Where the robot's own eyes find things and people (`eyes`), the oracle sights none of them,
+        and the map tells no more of things than their names do. Where its own lidar finds the robot
         (`localisation`), no fix is made, and the map does not tell where it began.
         """
         seeds = rng.spawn(3)
@@ -82,7 +82,7 @@ class Sending:
         self.lidar = PlanarLidar(model, data, robot, rng=seeds[1])
         self.oracle = Oracle(
             model, data, world, robot=robot, rays=Rays(model, data, body=self.camera.body),
-            rng=seeds[2], pose_error_m=pose_error_m, sees_things=eyes == "oracle",
+            rng=seeds[2], pose_error_m=pose_error_m,
         )  # fmt: skip
         prior = world_map(world) if eyes == "oracle" else world_map(world).told()
         self.relieved = False
@@ -100,6 +100,8 @@ class Sending:
         if battery is not None:
             self._sources.append(_Source(topics.POWER, battery.report))
         untold = () if localisation == "oracle" else (topics.ORACLE_FIX.name,)
+        if eyes != "oracle":
+            untold = (*untold, topics.ORACLE_SIGHTINGS.name)
         self._told = [source for source in self._sources if source.name not in untold]
 
     def spoil(self, lidar: Lidar, camera: Camera) -> None:

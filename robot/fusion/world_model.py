@@ -116,13 +116,8 @@ class WorldModel:
         """Every person's track, in the order they became known."""
         return tuple(self._people.values())
 
-    def see(
-        self, sightings: Sightings, X_WC: SE3, depth: DepthImage | None, *, things: bool = True
-    ) -> None:
-        """Take one frame of the camera at X_WC; without depth nothing can be missed.
-
-        Without `things` it is a frame of people: it does not say that an object is gone.
-        """
+    def see(self, sightings: Sightings, X_WC: SE3, depth: DepthImage | None) -> None:
+        """Take one frame of the camera at X_WC; without depth nothing can be missed."""
         _place(self._tracks, self._misses, sightings.objects, X_WC, sightings.stamp_s)
         _place(self._people, self._misses, sightings.people, X_WC, sightings.stamp_s)
         seen = {sighting.id for sighting in (*sightings.objects, *sightings.people)}
@@ -130,8 +125,7 @@ class WorldModel:
         if depth is None:
             return
         view = View(depth, X_WC, range_m=self._range_m)
-        if things:
-            self._miss_objects(view, seen)
+        self._miss_objects(view, seen)
         for name, track in self._people.items():
             if track.X_WO is None or name in seen:
                 continue

@@ -14,7 +14,7 @@ import numpy as np
 from robot.bus import topics
 from robot.bus.bus import Bus
 from robot.fusion.history import BodyHistory
-from robot.messages import DepthImage, ObjectInfo, RgbdImage, Track, WorldMap
+from robot.messages import DepthImage, ObjectInfo, PersonInfo, RgbdImage, Track, WorldMap
 from robot.model.body import BodyModel
 from robot.perception.sight.attention import Attention
 from robot.perception.sight.own_body import OwnBody
@@ -64,6 +64,8 @@ class Gaze:
         self._pictures = bus.subscribe(topics.RGBD)
         self._looked_at_s = self._asked_s = self._told_s = -math.inf
         self._map: WorldMap | None = None
+        self._people: tuple[PersonInfo, ...] = ()
+        self._strangers: tuple[PersonInfo, ...] = ()
         self._worker = ThreadPoolExecutor(1, "eyes") if take is None else None
         self._looking: tuple[View, Future[Look]] | None = None
 
@@ -74,7 +76,7 @@ class Gaze:
 
     def tell(self, world_map: WorldMap) -> None:
         """Take what an owner says that there is."""
-        self._map = world_map.told()
+        self._map, self._people = world_map.told(), world_map.people
         self._seer.tell(world_map)
 
     def forget(self) -> None:
@@ -155,14 +157,24 @@ class Gaze:
             depth_m=np.ascontiguousarray(found).tobytes(),
         )
 
+    def meet(self, strangers: tuple[PersonInfo, ...]) -> None:
+        """Take who is there besides the people whom an owner told of."""
+        self._strangers = strangers
+
     def publish(self, now_s: float) -> None:
-        """Tell the map with things as they were seen, once a second and when they are others."""
-        assert self._map is not None
-        infos = self._seer.infos()
-        if infos == self._map.objects and now_s - self._told_s < TELL_S:
+        """Tell the map with things and people as they were seen, once a second and when others."""
+        if self._map is None:
+            return
+        infos, people = self._seer.infos(), (*self._people, *self._strangers)
+        same = infos == self._map.objects and _ids(people) == _ids(self._map.people)
+        if same and now_s - self._told_s < TELL_S:
             return
         self._told_s = now_s
         self._map = msgspec.structs.replace(
-            self._map, stamp_s=now_s, objects=infos, source="sensor"
+            self._map, stamp_s=now_s, objects=infos, people=people, source="sensor"
         )
         self._bus.publish(topics.WORLD_MAP, self._map)
+
+
+def _ids(people: tuple[PersonInfo, ...]) -> list[str]:
+    return [person.id for person in people]

@@ -27,6 +27,7 @@ from robot.messages import (
     Message,
     PoseFix,
     Sightings,
+    Track,
     WorldMap,
     WorldState,
 )
@@ -37,6 +38,7 @@ from robot.perception.gaze import Gaze, Take
 from robot.se3 import SE3
 
 if TYPE_CHECKING:
+    from robot.perception.company.company import Company
     from robot.perception.own_place import OwnPlace
 
 PERIOD_S = 0.1
@@ -74,7 +76,8 @@ class PerceptionNode(Closing):
             wiring: for the drivers.
             looks: whether pictures are to be looked at, though the camera is simulated.
             album: where some of them are kept; None: nowhere.
-            eyes: who tells where things are; with "camera" they are found in pictures.
+            eyes: who tells where things and people are; with "camera" things are found in pictures,
+                people in scans and depth.
             take: takes a picture of that very moment; without, the newest of the camera is looked
                 at.
             localisation: who tells where the robot is; with "lidar" its scans do.
@@ -112,6 +115,7 @@ class PerceptionNode(Closing):
             body_radius_m=radius_m, forget_s=REMEMBER_S, name="in_view"
         )
         self._gaze = Gaze(self._body, bus, take=take) if eyes == "camera" else None
+        self._company = _company() if eyes == "camera" else None
         self._now_s = self._looked_s = -math.inf
         self._published_s = -math.inf
 
@@ -160,6 +164,8 @@ class PerceptionNode(Closing):
             self._looked.know(world_map.places)
             if self._gaze is not None:
                 self._gaze.tell(world_map)
+            if self._company is not None:
+                self._company.know(world_map)
             people = {person.id for person in world_map.people}  # they walk: nothing explains them
             fixed = tuple(thing for thing in world_map.obstacles if thing.id not in people)
             self._unmapped.know(fixed)
@@ -178,14 +184,17 @@ class PerceptionNode(Closing):
             return  # nothing can be placed in the world yet
         elif isinstance(message, Sightings):
             X_WC = self._site_in_world(self._camera, message.stamp_s)
-            if X_WC is not None:
-                depth, by_oracle = self._depth_at(message.stamp_s), self._gaze is None
-                self._world.see(message, X_WC, depth, things=by_oracle)
+            if X_WC is not None and self._company is None:
+                self._world.see(message, X_WC, self._depth_at(message.stamp_s))
         elif isinstance(message, LidarScan) and self._known is not None:
             X_WLidar = self._site_in_world(self._lidar, message.stamp_s)
             if X_WLidar is not None:
                 self._feel(self._unmapped)
+                if self._company is not None:
+                    self._feel(self._company)
                 self._unmapped.see(message, X_WLidar)
+                if self._company is not None:
+                    self._company.scan(message, X_WLidar)
 
     def _find_itself(self, scan: LidarScan, own: OwnPlace) -> None:
         """Let a scan say where the robot is."""
@@ -207,6 +216,8 @@ class PerceptionNode(Closing):
             self._in_view.forget()
             if self._gaze is not None:
                 self._gaze.forget()
+            if self._company is not None:
+                self._company.forget()
 
     def _look_out(self, image: DepthImage) -> None:
         """Find in a depth image what stands in the way, and what it shows of the surfaces.
@@ -222,6 +233,8 @@ class PerceptionNode(Closing):
             self._in_view.see_depth(image, X_WC, self._localiser.X_WN @ X_NB.X_NB)
             if self._gaze is None:
                 self._looked.see(image, X_WC)
+            if self._company is not None:
+                self._company.see_depth(image, X_WC)
 
     def _look(self, gaze: Gaze) -> None:
         """Look at a picture, if it is time for one: what is in it, and which surfaces it shows."""
@@ -242,9 +255,24 @@ class PerceptionNode(Closing):
         self._world.miss(look.missed)
         self._world.mistake(look.mistaken)
         self._looked.see(gaze.surfaces(view), view.X_WC)
+        if self._company is not None:
+            self._company.see_picture(view.image, view.X_WC)
         gaze.publish(self._now_s)
 
-    def _feel(self, obstacles: UnmappedObstacles) -> None:
+    def _people(self) -> tuple[Track, ...]:
+        """Who is around; who has no name is put on the map, before the world model speaks of them."""
+        if self._company is None:
+            seen = {"since_s": self._now_s - JUST_SEEN_S}
+            just_seen = (*self._unmapped.obstacles(**seen), *self._in_view.obstacles(**seen))
+            self._world.bump(just_seen, self._now_s)
+            return self._world.people()
+        around = self._company.around(self._now_s)
+        if self._gaze is not None:
+            self._gaze.meet(around.strangers)
+            self._gaze.publish(self._now_s)
+        return around.tracks
+
+    def _feel(self, obstacles: UnmappedObstacles | Company) -> None:
         """Tell where the robot's own arms are, which the sensors see as well."""
         if (newest := self._history.newest) is not None:
             X_WN = self._localiser.X_WN
@@ -290,9 +318,7 @@ class PerceptionNode(Closing):
                 for side, hand in newest.hands.items()
             }
         )
-        seen = {"since_s": self._now_s - JUST_SEEN_S}
-        just_seen = (*self._unmapped.obstacles(**seen), *self._in_view.obstacles(**seen))
-        self._world.bump(just_seen, self._now_s)
+        people = self._people()
         self._bus.publish(
             topics.WORLD_STATE,
             WorldState(
@@ -301,7 +327,7 @@ class PerceptionNode(Closing):
                 X_WB=X_WN @ newest.X_NB,
                 fix_age_s=self._now_s - localiser.fixed_s,
                 tracks=self._world.tracks(),
-                people=self._world.people(),
+                people=people,
                 unmapped=unmapped,
                 looked=self._looked.looked(),
                 jumps=localiser.jumps,
@@ -316,3 +342,9 @@ def _own_place(lidar_map: Path | None, history: BodyHistory) -> OwnPlace:
     from robot.perception.own_place import OwnPlace  # scipy, which takes a while to load
 
     return OwnPlace(lidar_map, history)
+
+
+def _company() -> Company:
+    from robot.perception.company.company import Company  # scipy as well
+
+    return Company()

@@ -10,6 +10,7 @@ from executive.skills.motions.obstructions import clearance_m
 from executive.skills.motions.script import Script, give_up
 from robot.messages import Obstacle, PersonInfo
 from robot.person_distances import CLEAR_M, ZONE_M
+from robot.se3 import SE3
 
 BELIEVED_S = 10.0
 """Who was seen so lately is taken to be there still, unless the place was seen empty since."""
@@ -35,7 +36,7 @@ def somebody_near(
             continue
         if body.now_s - track.seen_s > BELIEVED_S:
             continue
-        person = body.person(track.id)
+        person = body.map.person(track.id) or PersonInfo(id=track.id, name="a person", X_WO=SE3())
         dx, dy = track.X_WO.p[0] - p_W[0], track.X_WO.p[1] - p_W[1]
         ahead = towards_rad is None or dx * math.cos(towards_rad) + dy * math.sin(towards_rad) > 0.0
         if ahead and math.hypot(dx, dy) - person.radius_m < within_m:
@@ -51,7 +52,8 @@ def in_the_path(body: Body, towards_rad: float) -> Obstacle | None:
 
 def as_obstacle(body: Body, person: PersonInfo) -> Obstacle:
     """Somebody where they are believed to be, as what stands in the way."""
-    return Obstacle(id=person.id, name=person.name, X_WO=body.X_WPerson(person.id), shapes=())
+    at = next((t.X_WO for t in body.world.people if t.id == person.id and t.X_WO), person.X_WO)
+    return Obstacle(id=person.id, name=person.name, X_WO=at, shapes=())
 
 
 def get_familiar(body: Body) -> frozenset[str]:

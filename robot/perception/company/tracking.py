@@ -110,7 +110,7 @@ class Somebody:
         self.state = self.state + gain @ (p_W - self.state[:2])
         covariance = self.covariance - gain @ seen.T
         self.covariance = 0.5 * (covariance + covariance.T)  # rounding grows otherwise
-        self.seen_s, self.misses = now_s, 0
+        self.seen_s, self.misses = max(now_s, self.seen_s), 0
 
     def weigh(self, nats: float, now_s: float) -> None:
         """Take in evidence."""
