@@ -34,7 +34,8 @@ PERIOD_S, JUDGE_S = 0.1, 0.5
 WALKS_M_S = 0.4
 UNKNOWN_PIECES = 2
 WITHIN_M, ZONE_M = 5.0, 1.0
-SAME_M = 0.6
+SAME_M, LYING_M = 0.6, 1.0
+"""Found is who is told to be so near; of somebody who lies it may be the head or the legs."""
 PLACE_M, PLACE_RAD = 0.015, math.radians(0.7)
 """1 sigma of the wandering error of the robot's belief where it is."""
 KINDS: tuple[str, ...] = ("stands", "walks", "sits", "lies", "walks", "stands")
@@ -51,6 +52,7 @@ class Score:
     looks: int = 0
     in_zone: int = 0
     missed_in_zone: int = 0
+    unsensed_in_zone: int = 0
     false_in_zone: int = 0
     errors_m: list[float] = field(default_factory=list[float])
     sigmas: list[float] = field(default_factory=list[float])
@@ -80,6 +82,7 @@ class Score:
             "within 2.45 sigma": round(float(np.mean(np.array(self.sigmas) < 2.45)), 3) if self.sigmas else None,
             "posture right": round(float(np.mean(self.postures)), 3) if self.postures else None,
             "in zone": self.in_zone, "missed in zone": self.missed_in_zone,
+            "not even followed in zone": self.unsensed_in_zone,
             "false in zone, a minute": round(self.false_in_zone / max(minutes, 1e-9), 3),
             "false tracks, a minute": round(len(self.false_tracks) / max(minutes, 1e-9), 3),
             "ms a step, median; 95 %": [at(self.ms, 50), at(self.ms, 95)],
@@ -216,7 +219,7 @@ def run(seed: int, score: Score, *, reality: str, duration_s: float) -> Iterator
         told = {one.id: one for one in around.tracks if not one.missing and one.X_WO is not None}
         yield from _judge(score, seed, now_s, me.at, {
             p.id: (kind, p.posture, np.array(plant.where(f"person/{p.id}").p[:2])) for p, kind in bodies.values()
-        }, told, seen_s)  # fmt: skip
+        }, told, seen_s, [one.p_W for one in company._everybody.tracks])  # fmt: skip
 
 
 def _visible(model: Any, data: Any, site_c: Any, site_l: Any, camera: Any, lidar: Any) -> set[int]:
@@ -231,14 +234,14 @@ def _visible(model: Any, data: Any, site_c: Any, site_l: Any, camera: Any, lidar
     return found
 
 
-def _judge(score: Score, seed: int, now_s: float, me: Any, truth: Any, told: Any, seen_s: Any) -> Iterator[str]:
+def _judge(score: Score, seed: int, now_s: float, me: Any, truth: Any, told: Any, seen_s: Any, followed: Any) -> Iterator[str]:
     score.looks += 1
     left = dict(told)
     for id, (kind, posture, p_W) in truth.items():
         near = min(left, key=lambda k: math.dist(left[k].X_WO.p[:2], p_W), default=None)
         off_m = math.dist(left[near].X_WO.p[:2], p_W) if near else math.inf
         range_m = math.dist(me, p_W)
-        hit = off_m < SAME_M
+        hit = off_m < (LYING_M if posture == "lies" else SAME_M)
         if hit and near:
             one = left.pop(near)
             if range_m < WITHIN_M and now_s - one.seen_s < 0.5:
@@ -256,6 +259,7 @@ def _judge(score: Score, seed: int, now_s: float, me: Any, truth: Any, told: Any
         if range_m < ZONE_M:
             score.in_zone += 1
             score.missed_in_zone += not hit
+            score.unsensed_in_zone += all(math.dist(one, p_W) > SAME_M for one in followed)
     for id, one in left.items():
         range_m = math.dist(me, one.X_WO.p[:2])
         if range_m < WITHIN_M and now_s - one.seen_s < 1.0:

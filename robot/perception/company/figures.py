@@ -32,6 +32,7 @@ BROAD_M = 1.0
 LIES_LONG_M, LIES_WIDE_M = (1.05, 2.15), (0.2, 0.85)
 WITHIN_M = 0.11
 """From the surface that is seen to the middle of a trunk."""
+BEHIND_M = 0.12
 RAISED_GAP_M = 0.09
 """Between a head and a hand beside it."""
 CLEARLY, SITTING, LYING, MAYBE, HARDLY = 2.5, 1.2, 1.5, 0.7, -1.5
@@ -126,14 +127,13 @@ def _figure(view: DepthView, pixels: NDArray[np.intp]) -> Figure:
 
 
 def _is_cut_above(view: DepthView, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> bool:
-    """Whether it goes on above what is seen: beyond the border, or behind something nearer."""
+    """Whether it may go on above what is seen: its end is seen where what is behind it is."""
     if rows.min() == 0:
         return True
     first = rows == rows.min()
     above = view.depth_m[rows[first] - 1, columns[first]]
     own = view.depth_m[rows[first], columns[first]]
-    nearer = (above > 0.0) & (above < own - 0.15)
-    return bool(nearer.mean() > 0.5)
+    return bool((above > own + BEHIND_M).mean() < 0.5)
 
 
 def _judged(cluster: _Cluster, top_m: float) -> tuple[float, Posture, bool]:

@@ -46,15 +46,22 @@ class MappedSolids:
             found[part] = self._strange(points[part], ranges_m[part])
         return found
 
+    def apart(self, points: Array, margin_m: float) -> NDArray[np.bool_]:
+        """Which points, shape (n, 3), are further than that beside all of them."""
+        return self._outside(points, np.full(len(points), margin_m), np.zeros(len(points)))
+
     def _strange(self, points: Array, ranges_m: Array) -> NDArray[np.bool_]:
-        margin_m = NEAR_M + NEAR_SHARE * ranges_m
+        beside_m, above_m = NEAR_M + NEAR_SHARE * ranges_m, ABOVE_M + ABOVE_SHARE * ranges_m
+        return self._outside(points, beside_m, above_m)
+
+    def _outside(self, points: Array, margin_m: Array, above_m: Array) -> NDArray[np.bool_]:
         boxes = self._near(points, float(margin_m.max(initial=0.0)))
         x, y, z, c, s, half_x, half_y, half_z = (column[None, :] for column in boxes.T)
         dx, dy, dz = points[:, 0:1] - x, points[:, 1:2] - y, points[:, 2:3] - z
         margin = margin_m[:, None]
         inside = np.abs(c * dx + s * dy) <= half_x + margin
         inside &= np.abs(c * dy - s * dx) <= half_y + margin
-        inside &= np.abs(dz) <= half_z + (ABOVE_M + ABOVE_SHARE * ranges_m)[:, None]
+        inside &= np.abs(dz) <= half_z + above_m[:, None]
         return ~inside.any(axis=1)
 
     def _near(self, points: Array, margin_m: float) -> Array:

@@ -22,18 +22,31 @@ GAP_M = 0.26
 WIDEST_M = 0.85
 WITHIN_M = 0.08
 """From the mean of the returns to the middle of somebody."""
+TRUNK_M = 0.17
+"""Between the middle of somebody and what they stand beside, at the least."""
 LOW_M, HIGH_M = 0.15, 1.6
 NOISE_M, NOISE_SHARE = 0.05, 0.012
 """1 sigma of a middle: of the stride, and of the beams' distance from one another."""
 
 
 class Returns(NamedTuple):
-    """A cluster: its middle in W [m], shape (2,), 1 sigma of that, beams, width [m]."""
+    """A cluster of strange returns.
+
+    Attributes:
+        p_W: its middle [m], shape (2,).
+        sigma_m: 1 sigma of that.
+        beams: how many.
+        width_m: between the outermost of them.
+        range_m: from the lidar.
+        is_free: whether there is room for somebody's trunk between it and what the map knows.
+    """
 
     p_W: Array
     sigma_m: float
     beams: int
     width_m: float
+    range_m: float
+    is_free: bool
 
 
 class Sweep(NamedTuple):
@@ -52,6 +65,8 @@ class Sweep(NamedTuple):
     bearings_rad: Array
     ranges_m: Array
     clusters: tuple[Returns, ...]
+    empty_rad: Array
+    """Bearings of the beams that did not come back, shape (m,): nothing there, or the robot."""
 
 
 def sweep(scan: LidarScan, X_WL: SE3, solids: MappedSolids) -> Sweep:
@@ -59,6 +74,7 @@ def sweep(scan: LidarScan, X_WL: SE3, solids: MappedSolids) -> Sweep:
     ranges_m = np.array(scan.ranges_m)
     angles = scan.angle_min_rad + scan.angle_step_rad * np.arange(len(ranges_m))
     there = np.isfinite(ranges_m)
+    missing = X_WL.yaw_rad + angles[~there]
     ranges_m, angles = ranges_m[there], angles[there]
     beams_L = ranges_m[:, None] * np.stack(
         [np.cos(angles), np.sin(angles), np.zeros(len(angles))], axis=1
@@ -72,14 +88,17 @@ def sweep(scan: LidarScan, X_WL: SE3, solids: MappedSolids) -> Sweep:
     flat_m = np.hypot(off[:, 0], off[:, 1])
     keep = (flat_m < FARTHEST_M) & (points[:, 2] > LOW_M) & (points[:, 2] < HIGH_M)
     keep[keep] = solids.strange(points[keep], flat_m[keep])
-    clusters = _clusters(points[keep, :2], eye, abs(scan.angle_step_rad))
-    return Sweep(scan.stamp_s, eye, bearings, flat_m, clusters)
+    clusters = _clusters(points[keep], eye, abs(scan.angle_step_rad), solids)
+    return Sweep(scan.stamp_s, eye, bearings, flat_m, clusters, missing)
 
 
-def _clusters(points: Array, eye: Array, step_rad: float) -> tuple[Returns, ...]:
+def _clusters(
+    points_W: Array, eye: Array, step_rad: float, solids: MappedSolids
+) -> tuple[Returns, ...]:
     """Runs of strange returns around the lidar; the last may go on in the first."""
-    if not len(points):
+    if not len(points_W):
         return ()
+    points, z_m = points_W[:, :2], float(points_W[:, 2].mean())
     ranges_m = np.linalg.norm(points - eye, axis=1)
     gaps_m = np.linalg.norm(np.diff(points, axis=0, append=points[:1]), axis=1)
     nearer_m = np.minimum(ranges_m, np.roll(ranges_m, -1))
@@ -98,7 +117,9 @@ def _clusters(points: Array, eye: Array, step_rad: float) -> tuple[Returns, ...]
         mean = group.mean(axis=0)
         range_m = max(float(np.linalg.norm(mean - eye)), 0.1)
         at = mean + WITHIN_M * (mean - eye) / range_m
-        found.append(Returns(at, NOISE_M + NOISE_SHARE * range_m, len(group), width_m))
+        is_free = bool(solids.apart(np.array([[*at, z_m]]), TRUNK_M)[0])
+        sigma_m = NOISE_M + NOISE_SHARE * range_m
+        found.append(Returns(at, sigma_m, len(group), width_m, range_m, is_free))
     return tuple(found)
 
 
@@ -109,6 +130,6 @@ def sees_through(swept: Sweep, p_W: Array, *, half_m: float, beyond_m: float) ->
     if range_m < 0.3 or range_m > FARTHEST_M:
         return False
     half_rad = math.atan2(half_m, range_m)
-    apart = np.abs(np.mod(swept.bearings_rad - math.atan2(off[1], off[0]) + math.pi, math.tau) - math.pi)
-    near = apart < half_rad
+    off_rad = swept.bearings_rad - math.atan2(off[1], off[0])
+    near = np.abs(np.mod(off_rad + math.pi, math.tau) - math.pi) < half_rad
     return int(near.sum()) >= 2 and bool((swept.ranges_m[near] > range_m + beyond_m).all())

@@ -15,6 +15,7 @@ from itertools import count
 import numpy as np
 
 from robot.perception.company.figures import Figure, Posture
+from robot.perception.company.free_floor import FreeFloor
 from robot.perception.company.returns import Returns, Sweep, sees_through
 from robot.perception.people.assignment import least_costs
 from robot.se3 import Array
@@ -31,13 +32,18 @@ FIGURE_WORTH = 0.35
 """Of a look's evidence: ten looks a second are much the same look."""
 UNSURE, BELIEVED, DOUBTED = -1.2, 1.2, -0.4
 """Log-odds of what the map does not explain, from which on it is told, and until when."""
+CAME, CAME_SCANS, CAME_WITHIN_M, CAME_WIDE_M = 0.8, 3, 3.0, 0.07
+"""Evidence of each of the first scans of what stands where the floor was free before, if it is near
+enough to be sure of that and no thinner than a shin."""
+REFUTED, BESIDE_M = -2.0, 0.9
+"""What is no person for sure, and how far off what is seen new is a part of it."""
 LEAST, MOST = -4.0, 3.5
 WALK_S, WALKED_M, STRAIGHT, WALKING = 1.2, 0.35, 0.7, 0.35
 """What has gone so far in that time, and not to and fro, walks; evidence of each scan of it."""
 MISSES = 5
 """Scans or images in a row in which a place is seen through, until who was there is gone."""
 FORGET_S, FORGET_KNOWN_S = 1.5, 60.0
-"""Unseen for so long, what may be somebody is forgotten, and who is believed."""
+"""Unseen for so long, what may be somebody is forgotten, and who is believed, or refuted."""
 LARGEST_M = 2.5
 """1 sigma of where somebody hidden may be by now: no more than that is said."""
 BEAM_HALF_M, BEYOND_M = 0.22, 0.45
@@ -78,12 +84,18 @@ class Somebody:
     colour: Array | None = None
     believed_s: float = field(default=float("inf"))
     misses: int = 0
+    came: int = 0
     hand_looks: int = 0
 
     @property
     def p_W(self) -> Array:
         """Where they are on the floor [m], shape (2,)."""
         return self.state[:2]
+
+    @property
+    def is_known(self) -> bool:
+        """Whether it is told, or refuted."""
+        return self.is_believed or self.nats <= REFUTED
 
     @property
     def raises_hand(self) -> bool:
@@ -134,6 +146,7 @@ class Everybody:
         """Nobody yet."""
         self.tracks: list[Somebody] = []
         self.gone: list[Somebody] = []
+        self._floor = FreeFloor()
         self._numbers = count(1)
         self._now_s: float | None = None
 
@@ -149,6 +162,7 @@ class Everybody:
     def forget(self) -> None:
         """Forget where everybody is: it was told by a pose that was wrong."""
         self.tracks.clear()
+        self._floor.forget()
 
     def scan(self, swept: Sweep) -> None:
         """Take a scan."""
@@ -162,10 +176,14 @@ class Everybody:
             track.way.append((now_s, track.p_W.copy()))
             if _walks(track, now_s):
                 track.weigh(WALKING, now_s)
+            if track.came:
+                track.came -= 1
+                track.weigh(CAME, now_s)
         for number, one in enumerate(clusters):
             if number not in owners and one.beams >= FEWEST_BEAMS:
                 self._begin(one, noises[number], now_s)
         seen = list(owners.values())
+        self._floor.look(swept)
         self._miss(
             [
                 track
@@ -192,6 +210,8 @@ class Everybody:
                 if one.evidence <= 0.0:
                     continue
                 track = self._track(one.p_W, one.covariance, now_s)
+                if self._floor.was_free(one.p_W):
+                    track.weigh(CAME, now_s)
             else:
                 track.correct(one.p_W, one.covariance, now_s)
             _take(track, one)
@@ -208,7 +228,7 @@ class Everybody:
             [
                 track
                 for track in self.tracks
-                if now_s - track.seen_s > (FORGET_KNOWN_S if track.is_believed else FORGET_S)
+                if now_s - track.seen_s > (FORGET_KNOWN_S if track.is_known else FORGET_S)
             ]
         )
 
@@ -243,7 +263,20 @@ class Everybody:
         }
 
     def _begin(self, one: Returns, noise: Array, now_s: float) -> None:
-        self._track(one.p_W, noise, now_s)
+        track = self._track(one.p_W, noise, now_s)
+        if self._has_come(one):
+            track.came = CAME_SCANS - 1
+            track.weigh(CAME, now_s)
+        self._floor.occupy(one.p_W)
+
+    def _has_come(self, one: Returns) -> bool:
+        """Whether it stands where the floor was free before."""
+        part = any(
+            track.nats <= REFUTED and np.hypot(*(track.p_W - one.p_W)) < BESIDE_M
+            for track in self.tracks
+        )
+        near = one.range_m < CAME_WITHIN_M and one.width_m > CAME_WIDE_M and one.is_free
+        return near and not part and self._floor.was_free(one.p_W)
 
     def _track(self, p_W: Array, noise: Array, now_s: float) -> Somebody:
         covariance = np.zeros((4, 4))
