@@ -130,7 +130,8 @@ def made(seed: int, rng: np.random.Generator) -> tuple[World, list[str]]:
     """A world with other people in it, and how each of them is."""
     name = WORLDS[seed % len(WORLDS)]
     there = Simulation().world(
-        name if name == "kitchen" else f"{name}:{seed}", vary_seed=seed if name == "kitchen" else None
+        name if name == "kitchen" else f"{name}:{seed}",
+        vary_seed=seed if name == "kitchen" else None,
     )
     assert isinstance(there, SimulatedWorld)
     ground = Ground(there.entries)
@@ -154,7 +155,9 @@ def made(seed: int, rng: np.random.Generator) -> tuple[World, list[str]]:
 def without(world_map: WorldMap, rng: np.random.Generator) -> WorldMap:
     """A map that does not know some of the furniture."""
     people = {one.id for one in world_map.people}
-    pieces = [one.id for one in world_map.obstacles if one.id not in people and "wall" not in one.id]
+    pieces = [
+        one.id for one in world_map.obstacles if one.id not in people and "wall" not in one.id
+    ]
     lost = set(rng.permutation(pieces)[:UNKNOWN_PIECES].tolist())
     kept = tuple(one for one in world_map.obstacles if one.id not in lost | people)
     return msgspec.structs.replace(world_map, obstacles=kept, people=())
@@ -169,19 +172,26 @@ def run(seed: int, score: Score, *, reality: str, duration_s: float) -> Iterator
     plant = entries.plant(robot, seed=seed)
     model, data = plant.model, plant.data
     ground = Ground(world)
-    ground.keep_from([p.at_m for p, kind in zip(world.people, kinds, strict=True) if kind != "walks"], 0.6)
+    ground.keep_from(
+        [p.at_m for p, kind in zip(world.people, kinds, strict=True) if kind != "walks"], 0.6
+    )
     points = ground.points(np.argwhere(ground.home & (ground.clearance_m > 0.45)))
     me = Walker(points, rng, speed_m_s=WALKS_M_S)
     walkers = {
         person.id: Walker(points, rng, speed_m_s=float(rng.uniform(0.4, 1.2)))
         for person, kind in zip(world.people, kinds, strict=True) if kind == "walks"
     }  # fmt: skip
-    bodies = {int(model.body(f"person/{p.id}").id): (p, kind) for p, kind in zip(world.people, kinds, strict=True)}
+    bodies = {
+        int(model.body(f"person/{p.id}").id): (p, kind)
+        for p, kind in zip(world.people, kinds, strict=True)
+    }
     company = Company()
     company.know(without(entries.map, rng))
     camera, lidar = plant.sending.camera, plant.sending.lidar
     site_c, site_l = data.site(robot.sensors.camera.site), data.site(robot.sensors.lidar.site)
     seen_s: dict[str, float] = {}
+    unsure: tuple[tuple[float, float], ...] = ()
+    looks_aside = False
     off, gaze, gaze_until_s = np.zeros(3), (0.0, 0.3), 0.0
     for step in range(round(duration_s / PERIOD_S)):
         now_s = step * PERIOD_S
@@ -195,13 +205,20 @@ def run(seed: int, score: Score, *, reality: str, duration_s: float) -> Iterator
         if now_s >= gaze_until_s:
             gaze_until_s = now_s + float(rng.uniform(0.5, 2.0))
             gaze = (float(rng.choice([0.0, 0.0, 0.6, -0.6])), float(rng.choice([0.1, 0.35, 0.55])))
+            # As who walks does, every other time to what may be somebody.
+            looks_aside = not looks_aside
+            gaze = (looks_aside and _towards(me, unsure)) or gaze
         plant.pose({"head_pitch": gaze[1], "head_yaw": gaze[0]})
         base_q = model.jnt_qposadr[model.body_jntadr[model.body(robot.base_body).id]]
-        X_WB = plant.oracle.X_WB() @ SE3.from_rpy(float(sway[0]), float(sway[1]), 0.0, (0.0, 0.0, 0.0))
+        X_WB = plant.oracle.X_WB() @ SE3.from_rpy(
+            float(sway[0]), float(sway[1]), 0.0, (0.0, 0.0, 0.0)
+        )
         data.qpos[base_q : base_q + 7] = (*X_WB.p, *X_WB.quat_wxyz)
         mujoco.mj_kinematics(model, data)
         off = 0.98 * off + 0.2 * rng.normal(0.0, 1.0, 3) * np.array([PLACE_M, PLACE_M, PLACE_RAD])
-        X_off = SE3.from_xy_yaw(X_WB.p[0] + off[0], X_WB.p[1] + off[1], off[2]) @ SE3((-X_WB.p[0], -X_WB.p[1], 0.0))
+        X_off = SE3.from_xy_yaw(X_WB.p[0] + off[0], X_WB.p[1] + off[1], off[2]) @ SE3(
+            (-X_WB.p[0], -X_WB.p[1], 0.0)
+        )
         X_WC = X_off @ SE3.from_rotation(site_c.xmat.reshape(3, 3), site_c.xpos)
         X_WL = X_off @ SE3.from_rotation(site_l.xmat.reshape(3, 3), site_l.xpos)
         scan, image = lidar.scan(now_s), camera.capture(now_s)
@@ -211,6 +228,7 @@ def run(seed: int, score: Score, *, reality: str, duration_s: float) -> Iterator
         company.scan(scan, X_WL)
         company.see_depth(image, X_WC)
         around = company.around(now_s)
+        unsure = around.unsure
         score.ms.append(1e3 * (time.process_time() - begin))
         for body in _visible(model, data, site_c, site_l, camera, lidar) & set(bodies):
             seen_s[bodies[body][0].id] = now_s
@@ -220,6 +238,17 @@ def run(seed: int, score: Score, *, reality: str, duration_s: float) -> Iterator
         yield from _judge(score, seed, now_s, me.at, {
             p.id: (kind, p.posture, np.array(plant.where(f"person/{p.id}").p[:2])) for p, kind in bodies.values()
         }, told, seen_s, [one.p_W for one in company._everybody.tracks])  # fmt: skip
+
+
+def _towards(me: Walker, unsure: tuple[tuple[float, float], ...]) -> tuple[float, float] | None:
+    """How the head turns to the nearest of what may be somebody."""
+    near: list[tuple[float, float]] = []
+    for point in unsure:
+        off = np.array(point) - me.at
+        aside_rad = wrap_angle(math.atan2(off[1], off[0]) - me.yaw_rad)
+        if np.hypot(*off) < 3.5 and abs(aside_rad) < 1.3:
+            near.append((float(np.hypot(*off)), aside_rad))
+    return (min(near)[1], 0.1) if near else None
 
 
 def _visible(model: Any, data: Any, site_c: Any, site_l: Any, camera: Any, lidar: Any) -> set[int]:
@@ -234,7 +263,16 @@ def _visible(model: Any, data: Any, site_c: Any, site_l: Any, camera: Any, lidar
     return found
 
 
-def _judge(score: Score, seed: int, now_s: float, me: Any, truth: Any, told: Any, seen_s: Any, followed: Any) -> Iterator[str]:
+def _judge(
+    score: Score,
+    seed: int,
+    now_s: float,
+    me: Any,
+    truth: Any,
+    told: Any,
+    seen_s: Any,
+    followed: Any,
+) -> Iterator[str]:
     score.looks += 1
     left = dict(told)
     for id, (kind, posture, p_W) in truth.items():

@@ -163,7 +163,7 @@ def _placed(
     return tuple({placed.object: placed for placed in found}.values())
 
 
-SEEN = "things were seen by its own camera"
+SEEN = "things were seen by its own camera, people by its lidar and depth camera"
 FOUND = "it found its place by its own lidar"
 
 
@@ -197,9 +197,9 @@ def _own_senses(summary: Summary) -> list[str]:
     """What it did with its own senses, and what was told still; none by default."""
     own = {SEEN: summary.eyes == "camera", FOUND: summary.localisation == "lidar"}
     still = [
-        *(["where things are"] if summary.eyes == "oracle" else []),
+        *(["where things are", "where people are"] if summary.eyes == "oracle" else []),
         *(["its place"] if summary.localisation == "oracle" else []),
-        "people",
+        "what people say",
         "the map of the room",
     ]
     said = "; ".join(text for text, is_so in own.items() if is_so)

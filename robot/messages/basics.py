@@ -11,7 +11,7 @@ Mode = Literal["damping", "stand", "walk", "fallen", "rising"]
 Channel = Literal["legs", "waist", "head", "left_arm", "right_arm", "left_hand", "right_hand"]
 Source = Literal["oracle", "emulated", "sensor", "estimate"]
 EyesBy = Literal["oracle", "camera"]
-"""Who tells where the things are: the simulator, or what the robot sees in its own pictures."""
+"""Who tells where things and people are: the simulator, or the robot's own camera and lidar."""
 AskedEyes = Literal["auto", "oracle", "camera"]
 """What people ask for: one of these, or its own eyes where they were tried, else the oracle."""
 LocalisedBy = Literal["oracle", "lidar"]

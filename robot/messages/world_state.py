@@ -163,7 +163,8 @@ class WorldState(Message, frozen=True, kw_only=True):
     `people` are tracked like objects; one not seen yet (`seen_s` -inf) is where the map says.
     `looked` is what of the surfaces has been in view, near enough and with nothing before it.
     `covariance`, row by row, is of the errors of the base's x, y [m] and heading [rad], () where it
-    is unknown; `lost` says why the robot does not know where it is, "" while it does.
+    is unknown; `lost` says why the robot does not know where it is, "" while it does. `unsure` is
+    where somebody may be whom no camera has looked at: x and y [m] in W.
     """
 
     X_WN: SE3
@@ -177,3 +178,4 @@ class WorldState(Message, frozen=True, kw_only=True):
     source: Source = "oracle"
     covariance: tuple[float, ...] = ()
     lost: str = ""
+    unsure: tuple[tuple[float, float], ...] = ()

@@ -259,18 +259,21 @@ class PerceptionNode(Closing):
             self._company.see_picture(view.image, view.X_WC)
         gaze.publish(self._now_s)
 
-    def _people(self) -> tuple[Track, ...]:
-        """Who is around; who has no name is put on the map, before the world model speaks of them."""
+    def _people(self) -> tuple[tuple[Track, ...], tuple[tuple[float, float], ...]]:
+        """Who is around, and where somebody may be.
+
+        Who has no name is put on the map before the world model speaks of them.
+        """
         if self._company is None:
             seen = {"since_s": self._now_s - JUST_SEEN_S}
             just_seen = (*self._unmapped.obstacles(**seen), *self._in_view.obstacles(**seen))
             self._world.bump(just_seen, self._now_s)
-            return self._world.people()
+            return self._world.people(), ()
         around = self._company.around(self._now_s)
         if self._gaze is not None:
             self._gaze.meet(around.strangers)
             self._gaze.publish(self._now_s)
-        return around.tracks
+        return around.tracks, around.unsure
 
     def _feel(self, obstacles: UnmappedObstacles | Company) -> None:
         """Tell where the robot's own arms are, which the sensors see as well."""
@@ -318,7 +321,7 @@ class PerceptionNode(Closing):
                 for side, hand in newest.hands.items()
             }
         )
-        people = self._people()
+        people, unsure = self._people()
         self._bus.publish(
             topics.WORLD_STATE,
             WorldState(
@@ -334,6 +337,7 @@ class PerceptionNode(Closing):
                 source=localiser.source,
                 covariance=localiser.covariance,
                 lost="" if self._own is None else self._own.lost,
+                unsure=unsure,
             ),
         )
 

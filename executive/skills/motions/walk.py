@@ -41,6 +41,9 @@ LOOK_AHEAD_M = 1.5
 LOOK_HEIGHT_M = 0.5
 ABOUT_M = 2.5
 """Where somebody is as near as this the eyes stay on the way."""
+UNSURE_WITHIN_M, UNSURE_ASIDE_RAD = 3.5, 1.3
+"""How far off, and how far aside, what may be somebody is worth a look in passing."""
+CHEST_M = 1.1
 UNSEEN_S, BESIDE_THE_WAY_M = 1.0, 1.2
 """Who was not seen for so long is looked at where the way leads by so near."""
 STOP_TIMEOUT_S = 5.0
@@ -201,6 +204,18 @@ def _unsure_of(body: Body, points: list[tuple[float, float]]) -> Vector3 | None:
     return None
 
 
+def _maybe_somebody(body: Body) -> Vector3 | None:
+    """The nearest of what may be somebody, whom the head can turn to and nobody has looked at."""
+    X_SW = body.X_WS.inverse()
+    near: list[tuple[float, Vector3]] = []
+    for x_m, y_m in body.world.unsure:
+        ahead_m, left_m, _ = X_SW.apply((x_m, y_m, 0.0)).tolist()
+        far_m = math.hypot(ahead_m, left_m)
+        if far_m < UNSURE_WITHIN_M and abs(math.atan2(left_m, ahead_m)) < UNSURE_ASIDE_RAD:
+            near.append((far_m, (x_m, y_m, CHEST_M)))
+    return min(near)[1] if near else None
+
+
 def _person_at(body: Body, goal: Stance) -> Obstacle | None:
     """Somebody whom the body would touch where it is to stand, as an obstacle."""
     person = somebody_near(body, (*goal[:2], 0.0), within_m=body.description.body_radius_m)
@@ -254,7 +269,8 @@ class _Watch:
     def look_ahead(self, follower: Follower) -> None:
         """Turn the head now and then: along the path, or to who may still be beside it.
 
-        Every other time to where a thing may be that is looked for, if nobody is about.
+        Every other time to what may be somebody, or, if nobody is about, to where a thing may be
+        that is looked for.
         """
         body = self.body
         if body.now_s - self._looked_s < LOOK_EVERY_S:
@@ -265,7 +281,8 @@ class _Watch:
             ahead = _unsure_of(body, points) or (*points[-1], LOOK_HEIGHT_M)
             alone = somebody_near(body, body.X_WS.p, within_m=ABOUT_M) is None
             aside = body.glance() if self._aside and body.glance and alone else None
-            look_at(body, aside or ahead)
+            somebody = _maybe_somebody(body) if self._aside else None
+            look_at(body, somebody or aside or ahead)
             self._looked_s = body.now_s
 
     def call_ahead(self, follower: Follower) -> None:

@@ -23,7 +23,8 @@ FLOOR_M, FLOOR_PER_M2, HIGHEST_M = 0.06, 0.008, 2.3
 NEAR_SELF_M, ARM_M = 0.42, 0.2
 """About the body, and about an arm with what it holds: what is seen there is the robot."""
 PATCH_M, CHEST_M = 0.12, 1.0
-EMPTY_SHARE = 0.9
+EMPTY_SHARE, VIEW_M = 0.9, 3.6
+"""Of a chest's pixels, and how far off a depth camera of 4 m is sure that there is none."""
 STRANGER = "a person"
 MOST_STRANGERS = 20
 
@@ -34,10 +35,12 @@ class Around(NamedTuple):
     Attributes:
         tracks: of everybody; who was told of and was not seen yet is where they were told to be.
         strangers: who has no name.
+        unsure: where somebody may be whom nobody has looked at, x and y [m] in W.
     """
 
     tracks: tuple[Track, ...]
     strangers: tuple[PersonInfo, ...]
+    unsure: tuple[tuple[float, float], ...]
 
 
 class Company:
@@ -97,7 +100,10 @@ class Company:
             PersonInfo(id=one.id, name=STRANGER, X_WO=one.X_WO or SE3())
             for one in self._strangers.values()
         )
-        return Around(tracks, strangers)
+        unsure = tuple(
+            (float(one.p_W[0]), float(one.p_W[1])) for one in self._everybody.unsure(now_s)
+        )
+        return Around(tracks, strangers, unsure)
 
     def _see(self, view: DepthView) -> None:
         height_m = view.points_W[..., 2]
@@ -159,10 +165,13 @@ class Company:
 
 
 def is_clear(view: DepthView, p_W: Array) -> bool:
-    """Whether what is behind somebody's chest is seen, all over it, and nothing before it."""
+    """Whether nothing is seen at, or before, all of somebody's chest.
+
+    What gives no depth counts as far away: the lidar sees who wears black.
+    """
     X_CW = view.X_WC.inverse()
     x, y, z = X_CW.apply((float(p_W[0]), float(p_W[1]), CHEST_M)).tolist()
-    if z < 0.4:
+    if not 0.4 < z < VIEW_M:
         return False
     rows, columns = view.depth_m.shape
     u, v = columns / 2 - 0.5 + view.focal_px * x / z, rows / 2 - 0.5 + view.focal_px * y / z
@@ -172,7 +181,7 @@ def is_clear(view: DepthView, p_W: Array) -> bool:
     if left < 1 or top < 1 or right > columns - 1 or bottom > rows - 1:
         return False
     patch = view.depth_m[top:bottom, left:right]
-    return bool((patch > z + 0.35).mean() >= EMPTY_SHARE)
+    return bool(((patch == 0.0) | (patch > z + 0.35)).mean() >= EMPTY_SHARE)
 
 
 def _gone(track: Track) -> Track:

@@ -35,9 +35,7 @@ class FreeFloor:
         if self._origin is None:
             self._origin = swept.eye_W.copy()
         steps_m = np.arange(STEP_M, SEEN_M, STEP_M)
-        reach_m = np.concatenate(
-            (swept.ranges_m - SHORT_M, np.full(len(swept.empty_rad), EMPTY_M))
-        )
+        reach_m = np.concatenate((swept.ranges_m - SHORT_M, np.full(len(swept.empty_rad), EMPTY_M)))
         beams, steps = np.nonzero(steps_m[None, :] < reach_m[:, None])
         bearings = np.concatenate((swept.bearings_rad, swept.empty_rad))[beams]
         along = np.stack([np.cos(bearings), np.sin(bearings)], axis=1)

@@ -28,9 +28,7 @@ class MappedSolids:
                 half = 0.5 * np.array(shape.size_m)
                 high_m = float(np.abs(X_WS.rotation()[2]) @ half)
                 yaw_rad = X_WS.yaw_rad
-                rows.append(
-                    (*X_WS.p, np.cos(yaw_rad), np.sin(yaw_rad), half[0], half[1], high_m)
-                )
+                rows.append((*X_WS.p, np.cos(yaw_rad), np.sin(yaw_rad), half[0], half[1], high_m))
         self._boxes = np.array(rows, dtype=np.float64).reshape(-1, 8)
 
     def strange(self, points: Array, ranges_m: Array) -> NDArray[np.bool_]:

@@ -38,9 +38,7 @@ def segments(view: DepthView, wanted: NDArray[np.bool_]) -> list[NDArray[np.intp
     return _above_one_spot(view, [part for part in parts if len(part) >= LEAST_PX])
 
 
-def _above_one_spot(
-    view: DepthView, parts: list[NDArray[np.intp]]
-) -> list[NDArray[np.intp]]:
+def _above_one_spot(view: DepthView, parts: list[NDArray[np.intp]]) -> list[NDArray[np.intp]]:
     if len(parts) < 2:
         return parts
     middles = np.array(

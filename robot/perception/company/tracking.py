@@ -35,6 +35,9 @@ UNSURE, BELIEVED, DOUBTED = -1.2, 1.2, -0.4
 CAME, CAME_SCANS, CAME_WITHIN_M, CAME_WIDE_M = 0.8, 3, 3.0, 0.07
 """Evidence of each of the first scans of what stands where the floor was free before, if it is near
 enough to be sure of that and no thinner than a shin."""
+CLOSE_M, BODY_WIDE_M, CLOSE = 1.5, (0.10, 0.65), 0.3
+"""What is so near, stands free and is as wide as a body is taken for somebody, until a look says
+that it is not: being wrong costs a detour, and the other way round a blow."""
 REFUTED, BESIDE_M = -2.0, 0.9
 """What is no person for sure, and how far off what is seen new is a part of it."""
 LEAST, MOST = -4.0, 3.5
@@ -47,6 +50,7 @@ FORGET_S, FORGET_KNOWN_S = 1.5, 60.0
 LARGEST_M = 2.5
 """1 sigma of where somebody hidden may be by now: no more than that is said."""
 BEAM_HALF_M, BEYOND_M = 0.22, 0.45
+JUST_S = 0.35
 FEWEST_BEAMS = 2
 FEWEST_STEPS = 8
 WAY = 16
@@ -154,6 +158,14 @@ class Everybody:
         """Who is told."""
         return [track for track in self.tracks if track.is_believed]
 
+    def unsure(self, now_s: float) -> list[Somebody]:
+        """Who was seen just now and may be somebody, and no look has said."""
+        return [
+            track
+            for track in self.tracks
+            if not track.is_believed and track.nats >= UNSURE and now_s - track.seen_s < JUST_S
+        ]
+
     def take_gone(self) -> list[Somebody]:
         """Who was believed and has left since this was asked last."""
         gone, self.gone = self.gone, []
@@ -176,6 +188,8 @@ class Everybody:
             track.way.append((now_s, track.p_W.copy()))
             if _walks(track, now_s):
                 track.weigh(WALKING, now_s)
+            if UNSURE <= track.nats < BELIEVED and _may_be_close(clusters[number]):
+                track.weigh(min(CLOSE, BELIEVED - track.nats), now_s)
             if track.came:
                 track.came -= 1
                 track.weigh(CAME, now_s)
@@ -298,8 +312,10 @@ def _take(track: Somebody, one: Figure) -> None:
         return
     track.height_m = max(0.95 * track.height_m, one.top_m)
     track.posture = one.posture
-    track.hand_looks = min(track.hand_looks + 1, 2 * HAND_LOOKS) if one.raises_hand else max(
-        track.hand_looks - 1, 0
+    track.hand_looks = (
+        min(track.hand_looks + 1, 2 * HAND_LOOKS)
+        if one.raises_hand
+        else max(track.hand_looks - 1, 0)
     )
     if one.colour is not None:
         before = one.colour if track.colour is None else track.colour
@@ -314,3 +330,7 @@ def _walks(track: Somebody, now_s: float) -> bool:
     steps = np.diff(np.array(way)[::2], axis=0)
     went_m = float(np.hypot(*steps.sum(axis=0)))
     return went_m > max(WALKED_M, STRAIGHT * float(np.hypot(*steps.T).sum()))
+
+
+def _may_be_close(one: Returns) -> bool:
+    return one.is_free and one.range_m < CLOSE_M and BODY_WIDE_M[0] < one.width_m < BODY_WIDE_M[1]
