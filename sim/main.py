@@ -7,7 +7,7 @@ import sys
 from contextlib import ExitStack
 
 from robot.bus import run
-from robot.bus.lifeline import Stop, ask_for_real_time, tie_to_parent
+from robot.bus.lifeline import Stop, Turn, ask_for_real_time, ask_for_turn, tie_to_parent
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import WallClock
 from robot.drivers.simulation.shared_plant import PlantServer
@@ -21,6 +21,7 @@ from sim.simulation import Simulation
 def main(run_file: str, parent_pid: str) -> None:
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
+    ask_for_turn(Turn.BODY)
     config, stop = run.load(run_file), Stop()
     world = (
         Simulation()

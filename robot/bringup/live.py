@@ -18,6 +18,7 @@ from robot.bringup.private_folder import PrivateFolder
 from robot.bringup.processes import PROCESSES, Process
 from robot.bringup.supervisor import Supervisor
 from robot.bus import topics
+from robot.bus.lifeline import Turn, ask_for_turn
 from robot.bus.run import Run
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import Clock, Waker, WallClock
@@ -147,6 +148,7 @@ class LiveRuntime(Closing):
         """
         try:
             self._start()
+            ask_for_turn(Turn.EXECUTIVE)  # after the others are started, which inherit it
             self._wait_for_body()
         except BaseException:
             self.close()
@@ -241,6 +243,7 @@ class LiveRuntime(Closing):
 
     def close(self) -> None:
         """Controller first (it damps the motors), then the rest; write `timing.json`."""
+        ask_for_turn(Turn.OTHERS)
         if self._crew is not None:
             self._crew.close()
         if self._bus is not None:

@@ -12,7 +12,7 @@ import sys
 
 from robot.bus import run, topics
 from robot.bus.bus import Bus
-from robot.bus.lifeline import Stop, ask_for_real_time, tie_to_parent
+from robot.bus.lifeline import Stop, Turn, ask_for_real_time, ask_for_turn, tie_to_parent
 from robot.bus.timing import Lateness
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import Clock, WallClock
@@ -77,6 +77,7 @@ def is_next(patience_s: float) -> bool:
 def main(run_file: str, parent_pid: str) -> None:
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
+    ask_for_turn(Turn.BODY)
     config, clock = run.load(run_file), WallClock()
     robot = description.load(config.robot).driven_by(config.motors)
     loop, stop = ControlLoop(robot), Stop()

@@ -8,7 +8,7 @@ from contextlib import ExitStack
 
 from robot.bus import run
 from robot.bus.bus import LocalBus
-from robot.bus.lifeline import Stop, ask_for_real_time, tie_to_parent
+from robot.bus.lifeline import Stop, Turn, ask_for_real_time, ask_for_turn, tie_to_parent
 from robot.clock import WallClock
 from robot.drivers.motors.owned.memory import OwnerMemory
 from robot.drivers.simulation.shared_plant import SharedPlant
@@ -22,6 +22,7 @@ from robot.owner.serving import OwnedBody, Serving, squat_of, stop_of
 def main(run_file: str, parent_pid: str) -> None:
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
+    ask_for_turn(Turn.BODY)
     config, clock, stop = run.load(run_file), WallClock(), Stop()
     robot = description.load(config.robot).driven_by(config.motors)
     body = BodyModel(robot)

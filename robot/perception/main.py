@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from robot.bus import run
-from robot.bus.lifeline import Stop, tie_to_parent
+from robot.bus.lifeline import Stop, Turn, ask_for_turn, tie_to_parent
 from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import WallClock
 from robot.drivers.wiring import Wiring
@@ -21,6 +21,7 @@ PERIOD_S = 0.02
 def main(run_file: str, parent_pid: str) -> None:
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
+    ask_for_turn(Turn.SENSES)
     config, clock = run.load(run_file), WallClock()
     robot = description.load(config.robot)
     with ZenohBus("perception", config.sockets) as bus:

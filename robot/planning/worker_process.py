@@ -18,7 +18,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
 from typing import NamedTuple
 
-from robot.bus.lifeline import tie_to_parent
+from robot.bus.lifeline import Turn, ask_for_turn, tie_to_parent
 from robot.model.description import RobotDescription
 from robot.planning.requests import PlanRequest, PlanResult
 
@@ -119,6 +119,7 @@ def _work(description: RobotDescription, pipe: Connection) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
     tie_to_parent((parent.pid if parent is not None else None) or os.getppid())
+    ask_for_turn(Turn.PLANNING)
     solver = Solver(description)
     solver.warm_up()  # before it is ready: a request's time is counted from when it is sent
     try:

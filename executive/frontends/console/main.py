@@ -11,7 +11,7 @@ from pathlib import Path
 
 from executive.frontends.console.server import PageServer
 from executive.frontends.recorded_place import scene_of
-from robot.bus.lifeline import tie_to_parent
+from robot.bus.lifeline import Turn, ask_for_turn, tie_to_parent
 
 LAST_WORDS_S = 0.4
 """Time to tell the pages how it ended."""
@@ -20,6 +20,7 @@ LAST_WORDS_S = 0.4
 def main(folder: str, parent_pid: str, descriptor: str) -> None:
     """Load, build, run, close; the token comes from standard input, where nobody else reads it."""
     tie_to_parent(int(parent_pid))
+    ask_for_turn(Turn.OTHERS)
     token = sys.stdin.readline().strip()
     console = PageServer(lambda: Path(folder), scene_of, token=token)
     asyncio.run(_serve(console, socket.socket(fileno=int(descriptor))))
