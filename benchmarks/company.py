@@ -1,8 +1,9 @@
 """How well people are found and followed by lidar and depth camera, beside the truth.
 
 Homes and kitchens made from seeds, in which people stand, sit, lie and walk, and some pieces of
-furniture that the robot's map does not know. The robot goes from point to point and looks about; it is
-put there by hand, swaying, and believes to be where it is but for a wandering error. No physics, so it is fast.
+furniture that the robot's map does not know. The robot goes from point to point and looks about;
+it is put there by hand, swaying, and believes to be where it is but for a wandering error. There
+is no physics, so it is fast.
 
     python -m benchmarks.company --first 1000 --worlds 20 --reality real
 """
@@ -24,7 +25,7 @@ import typer
 from robot.messages import WorldMap
 from robot.model import description
 from robot.perception.company.company import Company
-from robot.se3 import SE3, wrap_angle
+from robot.se3 import SE3, Array, wrap_angle
 from sim.homes.ground import Ground
 from sim.simulation import SimulatedWorld, Simulation
 from sim.world_schema import Person, Posture, World
@@ -32,10 +33,11 @@ from sim.world_schema import Person, Posture, World
 WORLDS = ("kitchen", "flat", "office", "clinic")
 PERIOD_S, JUDGE_S = 0.1, 0.5
 WALKS_M_S = 0.4
-UNKNOWN_PIECES = 2
 WITHIN_M, ZONE_M = 5.0, 1.0
 SAME_M, LYING_M = 0.6, 1.0
 """Found is who is told to be so near; of somebody who lies it may be the head or the legs."""
+START_APART_M = 0.9
+SWAY_RAD = math.radians(0.8)
 PLACE_M, PLACE_RAD = 0.015, math.radians(0.7)
 """1 sigma of the wandering error of the robot's belief where it is."""
 KINDS: tuple[str, ...] = ("stands", "walks", "sits", "lies", "walks", "stands")
@@ -75,12 +77,13 @@ class Score:
             "precision": round(precision, 3), "recall": round(recall, 3),
             "F1": round(2 * precision * recall / max(1e-9, precision + recall), 3),
             "recall by kind": {
-                kind: round(self.hits.get(kind, 0) / max(1, self.hits.get(kind, 0) + self.misses.get(kind, 0)), 3)
+                kind: round(found / max(1, found + self.misses.get(kind, 0)), 3)
                 for kind in sorted({*self.hits, *self.misses})
+                for found in [self.hits.get(kind, 0)]
             },
             "error m, median; 95 %": [at(self.errors_m, 50), at(self.errors_m, 95)],
-            "within 2.45 sigma": round(float(np.mean(np.array(self.sigmas) < 2.45)), 3) if self.sigmas else None,
-            "posture right": round(float(np.mean(self.postures)), 3) if self.postures else None,
+            "within 2.45 sigma": _share([one < 2.45 for one in self.sigmas]),
+            "posture right": _share(self.postures),
             "in zone": self.in_zone, "missed in zone": self.missed_in_zone,
             "not even followed in zone": self.unsensed_in_zone,
             "false in zone, a minute": round(self.false_in_zone / max(minutes, 1e-9), 3),
@@ -89,12 +92,26 @@ class Score:
         }  # fmt: skip
 
 
+def _share(of: list[bool]) -> float:
+    return round(sum(of) / max(1, len(of)), 3)
+
+
 class Walker:
     """Goes from one free point to the next, on the way that is free, with pauses."""
 
-    def __init__(self, points: np.ndarray, rng: np.random.Generator, *, speed_m_s: float) -> None:
+    def __init__(
+        self,
+        points: np.ndarray,
+        rng: np.random.Generator,
+        *,
+        speed_m_s: float,
+        away: np.ndarray | None = None,
+    ) -> None:
+        """Begin at a point, not near where somebody is."""
         self._points, self._rng, self._speed = points, rng, speed_m_s
         self.at = points[rng.integers(len(points))].copy()
+        while away is not None and len(points) > 1 and np.hypot(*(self.at - away)) < START_APART_M:
+            self.at = points[rng.integers(len(points))].copy()
         self.yaw_rad = float(rng.uniform(-math.pi, math.pi))
         self._goal, self._pause_s = self.at.copy(), 0.0
 
@@ -152,92 +169,15 @@ def made(seed: int, rng: np.random.Generator) -> tuple[World, list[str]]:
     return msgspec.structs.replace(there.entries, people=tuple(people)), kinds
 
 
-def without(world_map: WorldMap, rng: np.random.Generator) -> WorldMap:
+def without(world_map: WorldMap, rng: np.random.Generator, count: int) -> WorldMap:
     """A map that does not know some of the furniture."""
     people = {one.id for one in world_map.people}
     pieces = [
         one.id for one in world_map.obstacles if one.id not in people and "wall" not in one.id
     ]
-    lost = set(rng.permutation(pieces)[:UNKNOWN_PIECES].tolist())
+    lost = set(rng.permutation(pieces)[:count].tolist())
     kept = tuple(one for one in world_map.obstacles if one.id not in lost | people)
     return msgspec.structs.replace(world_map, obstacles=kept, people=())
-
-
-def run(seed: int, score: Score, *, reality: str, duration_s: float) -> Iterator[str]:
-    """A minute in a world; yields what was wrong, for people to look at."""
-    rng = np.random.default_rng(seed)
-    world, kinds = made(seed, rng)
-    robot = description.load("juno")
-    entries = SimulatedWorld(world, profile=reality, eyes="camera", localisation="lidar")
-    plant = entries.plant(robot, seed=seed)
-    model, data = plant.model, plant.data
-    ground = Ground(world)
-    ground.keep_from(
-        [p.at_m for p, kind in zip(world.people, kinds, strict=True) if kind != "walks"], 0.6
-    )
-    points = ground.points(np.argwhere(ground.home & (ground.clearance_m > 0.45)))
-    me = Walker(points, rng, speed_m_s=WALKS_M_S)
-    walkers = {
-        person.id: Walker(points, rng, speed_m_s=float(rng.uniform(0.4, 1.2)))
-        for person, kind in zip(world.people, kinds, strict=True) if kind == "walks"
-    }  # fmt: skip
-    bodies = {
-        int(model.body(f"person/{p.id}").id): (p, kind)
-        for p, kind in zip(world.people, kinds, strict=True)
-    }
-    company = Company()
-    company.know(without(entries.map, rng))
-    camera, lidar = plant.sending.camera, plant.sending.lidar
-    site_c, site_l = data.site(robot.sensors.camera.site), data.site(robot.sensors.lidar.site)
-    seen_s: dict[str, float] = {}
-    unsure: tuple[tuple[float, float], ...] = ()
-    looks_aside = False
-    off, gaze, gaze_until_s = np.zeros(3), (0.0, 0.3), 0.0
-    for step in range(round(duration_s / PERIOD_S)):
-        now_s = step * PERIOD_S
-        everybody = [np.array(plant.where(f"person/{p.id}").p[:2]) for p in world.people]
-        me.step(everybody)
-        for id, walker in walkers.items():
-            walker.step([me.at, *(one for one in everybody if np.hypot(*(one - walker.at)) > 1e-6)])
-            plant.put(f"person/{id}", SE3.from_xy_yaw(*walker.at, walker.yaw_rad))
-        sway = rng.normal(0.0, math.radians(0.8), 2)
-        plant.stand(SE3.from_xy_yaw(*me.at, me.yaw_rad))
-        if now_s >= gaze_until_s:
-            gaze_until_s = now_s + float(rng.uniform(0.5, 2.0))
-            gaze = (float(rng.choice([0.0, 0.0, 0.6, -0.6])), float(rng.choice([0.1, 0.35, 0.55])))
-            # As who walks does, every other time to what may be somebody.
-            looks_aside = not looks_aside
-            gaze = (looks_aside and _towards(me, unsure)) or gaze
-        plant.pose({"head_pitch": gaze[1], "head_yaw": gaze[0]})
-        base_q = model.jnt_qposadr[model.body_jntadr[model.body(robot.base_body).id]]
-        X_WB = plant.oracle.X_WB() @ SE3.from_rpy(
-            float(sway[0]), float(sway[1]), 0.0, (0.0, 0.0, 0.0)
-        )
-        data.qpos[base_q : base_q + 7] = (*X_WB.p, *X_WB.quat_wxyz)
-        mujoco.mj_kinematics(model, data)
-        off = 0.98 * off + 0.2 * rng.normal(0.0, 1.0, 3) * np.array([PLACE_M, PLACE_M, PLACE_RAD])
-        X_off = SE3.from_xy_yaw(X_WB.p[0] + off[0], X_WB.p[1] + off[1], off[2]) @ SE3(
-            (-X_WB.p[0], -X_WB.p[1], 0.0)
-        )
-        X_WC = X_off @ SE3.from_rotation(site_c.xmat.reshape(3, 3), site_c.xpos)
-        X_WL = X_off @ SE3.from_rotation(site_l.xmat.reshape(3, 3), site_l.xpos)
-        scan, image = lidar.scan(now_s), camera.capture(now_s)
-        image.pixels()
-        begin = time.process_time()
-        company.feel(X_off @ X_WB, ())
-        company.scan(scan, X_WL)
-        company.see_depth(image, X_WC)
-        around = company.around(now_s)
-        unsure = around.unsure
-        score.ms.append(1e3 * (time.process_time() - begin))
-        for body in _visible(model, data, site_c, site_l, camera, lidar) & set(bodies):
-            seen_s[bodies[body][0].id] = now_s
-        if step % round(JUDGE_S / PERIOD_S):
-            continue
-        told = {one.id: one for one in around.tracks if not one.missing and one.X_WO is not None}
-        yield from _judge(score, seed, now_s, me.at, {
-            p.id: (kind, p.posture, np.array(plant.where(f"person/{p.id}").p[:2])) for p, kind in bodies.values()
-        }, told, seen_s, [one.p_W for one in company._everybody.tracks])  # fmt: skip
 
 
 def _towards(me: Walker, unsure: tuple[tuple[float, float], ...]) -> tuple[float, float] | None:
@@ -251,76 +191,173 @@ def _towards(me: Walker, unsure: tuple[tuple[float, float], ...]) -> tuple[float
     return (min(near)[1], 0.1) if near else None
 
 
-def _visible(model: Any, data: Any, site_c: Any, site_l: Any, camera: Any, lidar: Any) -> set[int]:
-    """Bodies with two beams of the lidar, or eight pixels, on them."""
-    found: set[int] = set()
-    for rays, site, directions, range_m, least in (
-        (lidar._rays, site_l, lidar._beams, lidar._range_m, 2), (camera._rays, site_c, camera._rays_C, 4.0, 8),
-    ):  # fmt: skip
-        _, geoms = rays.cast(site.xpos, directions @ site.xmat.reshape(3, 3).T, range_m=range_m)
-        ids, counts = np.unique(model.geom_bodyid[geoms[geoms >= 0]], return_counts=True)
-        found |= set(ids[counts >= least].tolist())
-    return found
+class Stage:
+    """A world, the robot in it, and what it has found out."""
+
+    def __init__(self, seed: int, *, reality: str, unknown: int) -> None:
+        """Make it all from a seed."""
+        self.seed, self.rng = seed, np.random.default_rng(seed)
+        world, kinds = made(seed, self.rng)
+        self.robot = description.load("juno")
+        there = SimulatedWorld(world, profile=reality, eyes="camera", localisation="lidar")
+        self.plant = there.plant(self.robot, seed=seed)
+        self.people = list(zip(world.people, kinds, strict=True))
+        ground = Ground(world)
+        ground.keep_from([one.at_m for one, kind in self.people if kind != "walks"], 0.6)
+        points = ground.points(np.argwhere(ground.home & (ground.clearance_m > 0.45)))
+        self.me = Walker(points, self.rng, speed_m_s=WALKS_M_S)
+        self.walkers: dict[str, Walker] = {}
+        for person, kind in self.people:
+            if kind == "walks":
+                speed_m_s = float(self.rng.uniform(0.4, 1.2))
+                self.walkers[person.id] = Walker(
+                    points, self.rng, speed_m_s=speed_m_s, away=self.me.at
+                )
+        self.company = Company()
+        self.company.know(without(there.map, self.rng, unknown))
+        self.around = self.company.around(0.0)
+        self.seen_s: dict[str, float] = {}
+        self._off, self._gaze, self._gaze_until_s = np.zeros(3), (0.0, 0.3), 0.0
+        self._looks_aside = False
+
+    def where(self, id: str) -> Array:
+        """Where somebody is, shape (2,)."""
+        return np.array(self.plant.where(f"person/{id}").p[:2])
+
+    def go_on(self, now_s: float) -> float:
+        """Let a period pass, and the robot sense; the time that its company took [ms]."""
+        everybody = {one.id: self.where(one.id) for one, _ in self.people}
+        self.me.step(list(everybody.values()))
+        for id, walker in self.walkers.items():
+            others = [p_W for other, p_W in everybody.items() if other != id]
+            walker.step([self.me.at, *others])
+            self.plant.put(f"person/{id}", SE3.from_xy_yaw(*walker.at, walker.yaw_rad))
+        self._look_about(now_s)
+        X_WB = self._sway()
+        walk = self.rng.normal(0.0, 1.0, 3) * np.array([PLACE_M, PLACE_M, PLACE_RAD])
+        self._off = 0.98 * self._off + 0.2 * walk
+        x, y, _ = X_WB.p
+        X_off = SE3.from_xy_yaw(x + self._off[0], y + self._off[1], self._off[2])
+        X_off @= SE3((-x, -y, 0.0))
+        sensors, sending = self.robot.sensors, self.plant.sending
+        X_WC, X_WL = (
+            X_off @ self._pose(site) for site in (sensors.camera.site, sensors.lidar.site)
+        )
+        scan, image = sending.lidar.scan(now_s), sending.camera.capture(now_s)
+        image.pixels()
+        for id in self._visible():
+            self.seen_s[id] = now_s
+        begin = time.process_time()
+        self.company.feel(X_off @ X_WB, ())
+        self.company.scan(scan, X_WL)
+        self.company.see_depth(image, X_WC)
+        self.around = self.company.around(now_s)
+        return 1e3 * (time.process_time() - begin)
+
+    def _look_about(self, now_s: float) -> None:
+        """Turn the head; as who walks does, every other time to what may be somebody."""
+        self.plant.stand(SE3.from_xy_yaw(*self.me.at, self.me.yaw_rad))
+        if now_s >= self._gaze_until_s:
+            self._gaze_until_s = now_s + float(self.rng.uniform(0.5, 2.0))
+            yaw, pitch = self.rng.choice([0.0, 0.0, 0.6, -0.6]), self.rng.choice([0.1, 0.35, 0.55])
+            self._looks_aside = not self._looks_aside
+            towards = _towards(self.me, self.around.unsure) if self._looks_aside else None
+            self._gaze = towards or (float(yaw), float(pitch))
+        self.plant.pose({"head_pitch": self._gaze[1], "head_yaw": self._gaze[0]})
+
+    def _sway(self) -> SE3:
+        """Lean a little, as who walks does; where the base is then."""
+        model, data = self.plant.model, self.plant.data
+        roll, pitch = self.rng.normal(0.0, SWAY_RAD, 2).tolist()
+        X_WB = self.plant.oracle.X_WB() @ SE3.from_rpy(roll, pitch, 0.0, (0.0, 0.0, 0.0))
+        at = model.jnt_qposadr[model.body_jntadr[model.body(self.robot.base_body).id]]
+        data.qpos[at : at + 7] = (*X_WB.p, *X_WB.quat_wxyz)
+        mujoco.mj_kinematics(model, data)
+        return X_WB
+
+    def _pose(self, site: str) -> SE3:
+        there = self.plant.data.site(site)
+        return SE3.from_rotation(there.xmat.reshape(3, 3), there.xpos)
+
+    def _visible(self) -> set[str]:
+        """Who has two beams of the lidar, or eight pixels, on them."""
+        model, sensors = self.plant.model, self.robot.sensors
+        camera, lidar = self.plant.sending.camera, self.plant.sending.lidar
+        found: set[int] = set()
+        for rays, name, directions, range_m, least in (
+            (lidar._rays, sensors.lidar.site, lidar._beams, sensors.lidar.range_m, 2),
+            (camera._rays, sensors.camera.site, camera._rays_C, sensors.camera.range_m, 8),
+        ):
+            site = self.plant.data.site(name)
+            along = directions @ site.xmat.reshape(3, 3).T
+            _, geoms = rays.cast(site.xpos, along, range_m=range_m)
+            ids, counts = np.unique(model.geom_bodyid[geoms[geoms >= 0]], return_counts=True)
+            found |= set(ids[counts >= least].tolist())
+        return {one.id for one, _ in self.people if model.body(f"person/{one.id}").id in found}
 
 
-def _judge(
-    score: Score,
-    seed: int,
-    now_s: float,
-    me: Any,
-    truth: Any,
-    told: Any,
-    seen_s: Any,
-    followed: Any,
-) -> Iterator[str]:
+def judge(score: Score, stage: Stage, now_s: float) -> Iterator[str]:
+    """Compare what is told with the truth; yields what was wrong, for people to look at."""
     score.looks += 1
-    left = dict(told)
-    for id, (kind, posture, p_W) in truth.items():
-        near = min(left, key=lambda k: math.dist(left[k].X_WO.p[:2], p_W), default=None)
-        off_m = math.dist(left[near].X_WO.p[:2], p_W) if near else math.inf
+    me = stage.me.at
+    left = {
+        one.id: (one, np.array(one.X_WO.p[:2]))
+        for one in stage.around.tracks
+        if not one.missing and one.X_WO is not None and math.isfinite(one.seen_s)
+    }
+    for person, kind in stage.people:
+        p_W = stage.where(person.id)
+        near = min(left, key=lambda id: math.dist(left[id][1], p_W), default=None)
+        within_m = LYING_M if person.posture == "lies" else SAME_M
+        hit = near is not None and math.dist(left[near][1], p_W) < within_m
         range_m = math.dist(me, p_W)
-        hit = off_m < (LYING_M if posture == "lies" else SAME_M)
-        if hit and near:
-            one = left.pop(near)
+        if hit and near is not None:
+            one, at = left.pop(near)
             if range_m < WITHIN_M and now_s - one.seen_s < 0.5:
-                score.errors_m.append(off_m)
-                error = np.array(one.X_WO.p[:2]) - p_W
-                P = np.array(one.covariance).reshape(2, 2)
-                score.sigmas.append(float(np.sqrt(error @ np.linalg.solve(P, error))))
-                score.postures.append(one.posture.split(",")[0] == posture)
-        if range_m > WITHIN_M or now_s - seen_s.get(id, -math.inf) > 1.0:
+                score.errors_m.append(math.dist(at, p_W))
+                spread = np.array(one.covariance).reshape(2, 2)
+                score.sigmas.append(float(np.sqrt((at - p_W) @ np.linalg.solve(spread, at - p_W))))
+                score.postures.append(one.posture.split(",")[0] == person.posture)
+        if range_m > WITHIN_M or now_s - stage.seen_s.get(person.id, -math.inf) > 1.0:
             continue
         counts = score.hits if hit else score.misses
         counts[kind] = counts.get(kind, 0) + 1
         if not hit:
-            yield f"{seed} {now_s:.1f} missed {id} {kind} at {range_m:.1f} m"
+            yield f"{stage.seed} {now_s:.1f} missed {person.id} {kind} at {range_m:.1f} m"
         if range_m < ZONE_M:
             score.in_zone += 1
             score.missed_in_zone += not hit
+            followed = (one.p_W for one in stage.company._everybody.tracks)
             score.unsensed_in_zone += all(math.dist(one, p_W) > SAME_M for one in followed)
-    for id, one in left.items():
-        range_m = math.dist(me, one.X_WO.p[:2])
+    for id, (one, at) in left.items():
+        range_m = math.dist(me, at)
         if range_m < WITHIN_M and now_s - one.seen_s < 1.0:
             score.false += 1
-            score.false_tracks.add((seed, id))
+            score.false_tracks.add((stage.seed, id))
             score.false_in_zone += range_m < ZONE_M
-            yield f"{seed} {now_s:.1f} false {id} {one.posture} at {np.round(one.X_WO.p[:2], 2)}, {range_m:.1f} m"
+            yield f"{stage.seed} {now_s:.1f} false {id} {one.posture} at {np.round(at, 2)}"
 
 
 @app.command()
 def main(
+    *,
     first: Annotated[int, typer.Option(help="The first seed.")] = 1000,
     worlds: Annotated[int, typer.Option(help="How many seeds.")] = 12,
     reality: Annotated[str, typer.Option(help="ideal, real or harsh.")] = "real",
     seconds: Annotated[float, typer.Option(help="In each world.")] = 60.0,
+    unknown: Annotated[int, typer.Option(help="Pieces of furniture that the map lacks.")] = 2,
     show: Annotated[bool, typer.Option("--show", help="What was wrong, look by look.")] = False,
 ) -> None:
     """Measure."""
     score = Score()
     for seed in range(first, first + worlds):
-        for line in run(seed, score, reality=reality, duration_s=seconds):
-            if show:
-                print(line)
+        stage = Stage(seed, reality=reality, unknown=unknown)
+        for step in range(round(seconds / PERIOD_S)):
+            now_s = step * PERIOD_S
+            score.ms.append(stage.go_on(now_s))
+            wrong = [] if step % round(JUDGE_S / PERIOD_S) else list(judge(score, stage, now_s))
+            if show and wrong:
+                print("\n".join(wrong))
     print(json.dumps(score.told(), indent=1))
 
 

@@ -1,4 +1,4 @@
-"""Who tells a robot where things and people are, where nobody has said who: its own eyes, where they hold.
+"""Who tells a robot where things and people are, where nobody has said: its own eyes, if they hold.
 
 A name that is wrong is worse than an oracle that says so: eyes count where they were tried, with
 the things that stand there, and found what they were to find (docs/perception.md has figures).
@@ -26,6 +26,6 @@ def trusted(world: World, robot: str) -> EyesBy:
 def untried(world: str) -> str:
     """That an oracle tells a robot where things and people are, and how to get rid of it."""
     return (
-        f"an oracle tells the robot where things and people are: its own eyes were not tried in {world} yet "
-        "(--eyes camera tries them)"
+        f"an oracle tells the robot where things and people are: its own eyes were not tried in "
+        f"{world} yet (--eyes camera tries them)"
     )

@@ -27,7 +27,7 @@ NARROWER_M = 0.10
 """By how much a head is narrower than shoulders; a box, a door, a shelf is not."""
 STANDS_M, TALLEST_M, SITS_M, LOW_M = 1.40, 2.10, 0.98, 0.50
 TRUNK_M, CHEST_M = 1.15, (0.85, 1.30)
-"""Whose head is out of the picture reaches up to the one at least, and is a trunk between others."""
+"""Who is seen without a head reaches up to the one at least, and is a trunk between others."""
 BROAD_M = 1.0
 LIES_LONG_M, LIES_WIDE_M = (1.05, 2.15), (0.2, 0.85)
 WITHIN_M = 0.11

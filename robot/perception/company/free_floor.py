@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from robot.perception.company.returns import Sweep
 from robot.se3 import Array
@@ -58,7 +59,7 @@ class FreeFloor:
         around = self._scans[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2]
         return bool(around.size and around.min() >= SCANS)
 
-    def _cells(self, points: Array) -> Array:
+    def _cells(self, points: Array) -> NDArray[np.intp]:
         assert self._origin is not None
         side = len(self._scans)
         cells = np.floor((points - self._origin + REACH_M) / CELL_M).astype(np.intp)

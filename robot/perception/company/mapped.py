@@ -11,7 +11,7 @@ from robot.messages import Obstacle
 from robot.se3 import Array
 
 NEAR_M, NEAR_SHARE = 0.10, 0.03
-"""How far beside a solid a point may be that is of it: of the pose, and of the heading at a range."""
+"""How far beside a solid a point of it may be measured: by the pose, and the heading at a range."""
 ABOVE_M, ABOVE_SHARE = 0.07, 0.02
 CHUNK = 4096
 
@@ -20,7 +20,7 @@ class MappedSolids:
     """The solids of a map as upright boxes."""
 
     def __init__(self, obstacles: Iterable[Obstacle] = ()) -> None:
-        """Take the obstacles; who is on the map does not stand fast, and is not to be among them."""
+        """Take the obstacles; people on the map do not stand fast, and are not to be among them."""
         rows: list[tuple[float, ...]] = []
         for obstacle in obstacles:
             for shape in obstacle.shapes:

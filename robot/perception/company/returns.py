@@ -71,10 +71,11 @@ class Sweep(NamedTuple):
 
 def sweep(scan: LidarScan, X_WL: SE3, solids: MappedSolids) -> Sweep:
     """Take one scan of a lidar at X_WL."""
-    ranges_m = np.array(scan.ranges_m)
-    angles = scan.angle_min_rad + scan.angle_step_rad * np.arange(len(ranges_m))
+    ranges_m: Array = np.array(scan.ranges_m)
+    numbers = np.arange(len(ranges_m), dtype=np.float64)
+    angles: Array = scan.angle_min_rad + scan.angle_step_rad * numbers
     there = np.isfinite(ranges_m)
-    missing = X_WL.yaw_rad + angles[~there]
+    missing: Array = X_WL.yaw_rad + angles[~there]
     ranges_m, angles = ranges_m[there], angles[there]
     beams_L = ranges_m[:, None] * np.stack(
         [np.cos(angles), np.sin(angles), np.zeros(len(angles))], axis=1

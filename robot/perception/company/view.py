@@ -70,9 +70,10 @@ def _view(
 ) -> DepthView:
     step = _step(depth_m.shape[1])
     coarse = depth_m[::step, ::step]
-    rows, columns = np.arange(coarse.shape[0]) * step, np.arange(coarse.shape[1]) * step
-    z = coarse.astype(np.float64)
-    x = z * ((columns - centre_px[0]) / focal_px[0])[None, :]
-    y = z * ((rows - centre_px[1]) / focal_px[1])[:, None]
+    rows: Array = step * np.arange(coarse.shape[0], dtype=np.float64)
+    columns: Array = step * np.arange(coarse.shape[1], dtype=np.float64)
+    z: Array = coarse.astype(np.float64)
+    x: Array = z * ((columns - centre_px[0]) / focal_px[0])[None, :]
+    y: Array = z * ((rows - centre_px[1]) / focal_px[1])[:, None]
     points_W = np.stack([x, y, z], axis=-1) @ X_WC.rotation().T + np.array(X_WC.p)
     return DepthView(stamp_s, coarse, points_W, focal_px[0] / step, X_WC)
