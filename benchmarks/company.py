@@ -1,3 +1,5 @@
+# pyright: reportPrivateUsage=false
+# Truth is what the sensors' own rays meet.
 """How well people are found and followed by lidar and depth camera, beside the truth.
 
 Homes and kitchens made from seeds, in which people stand, sit, lie and walk, and some pieces of
@@ -115,6 +117,10 @@ class Walker:
         self.yaw_rad = float(rng.uniform(-math.pi, math.pi))
         self._goal, self._pause_s = self.at.copy(), 0.0
 
+    def X_W(self) -> SE3:
+        """Where it stands."""
+        return SE3.from_xy_yaw(float(self.at[0]), float(self.at[1]), self.yaw_rad)
+
     def step(self, away: list[np.ndarray]) -> None:
         """Go on for a period, not into others."""
         if self._pause_s > 0.0:
@@ -231,7 +237,7 @@ class Stage:
         for id, walker in self.walkers.items():
             others = [p_W for other, p_W in everybody.items() if other != id]
             walker.step([self.me.at, *others])
-            self.plant.put(f"person/{id}", SE3.from_xy_yaw(*walker.at, walker.yaw_rad))
+            self.plant.put(f"person/{id}", walker.X_W())
         self._look_about(now_s)
         X_WB = self._sway()
         walk = self.rng.normal(0.0, 1.0, 3) * np.array([PLACE_M, PLACE_M, PLACE_RAD])
@@ -256,7 +262,7 @@ class Stage:
 
     def _look_about(self, now_s: float) -> None:
         """Turn the head; as who walks does, every other time to what may be somebody."""
-        self.plant.stand(SE3.from_xy_yaw(*self.me.at, self.me.yaw_rad))
+        self.plant.stand(self.me.X_W())
         if now_s >= self._gaze_until_s:
             self._gaze_until_s = now_s + float(self.rng.uniform(0.5, 2.0))
             yaw, pitch = self.rng.choice([0.0, 0.0, 0.6, -0.6]), self.rng.choice([0.1, 0.35, 0.55])
