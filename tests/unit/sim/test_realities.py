@@ -37,6 +37,11 @@ def test_there_are_an_ideal_a_real_and_a_harsh_one():
     assert realities.profile("ideal") == bare
 
 
+def test_juno_plans_its_steps_for_the_most_slippery_floor(juno):
+    floors = [realities.profile(name).body.floor_friction for name in realities.profiles()]
+    assert juno.balance.friction < min(floor[0] for floor in floors if floor is not None)
+
+
 def test_an_unknown_one_is_refused_with_the_nearest_name():
     with pytest.raises(ConfigError, match="did you mean 'harsh'"):
         Simulation().under("harch")
