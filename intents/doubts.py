@@ -26,7 +26,7 @@ from intents.english.words.limits import (
     SPOTS,
     TIMES,
 )
-from intents.english.words.measures import measure, number
+from intents.english.words.measures import UNIT_WORDS, measure, number
 from intents.english.words.names import NameIndex
 from intents.english.words.spelling import GRAMMAR_WORDS
 from intents.goals import (
@@ -209,6 +209,7 @@ def _is_contrary(case: _Case) -> bool:
         or whose_is_lost(words, goals)
         or explains_another(case.text, goals)
         or _loses_figure(case)
+        or _says_another_amount(case)
     )
 
 
@@ -218,6 +219,19 @@ def _loses_figure(case: _Case) -> bool:
     said = {*case.both.plain.split(), *strings(case.goals)}
     alone = (w for at, w in enumerate(words) if w.isdecimal() and measure(words, at) is None)
     return any(float(word) not in told for word in alone if word not in said)
+
+
+def _says_another_amount(case: _Case) -> bool:
+    """Whether an amount is told where none, or another, can be read in the sentence.
+
+    *Twa metres* is not one metre, a *quarter turn* not half of one.
+    """
+    words = case.words
+    if not numbers(case.goals):
+        return False
+    read = {one.end - 1 for at in range(len(words)) if (one := measure(words, at)) is not None}
+    units = {at for at, word in enumerate(words) if word in UNIT_WORDS}
+    return bool(units - read) or measures_lost(words, case.goals)
 
 
 def _loses_limit(case: _Case) -> bool:

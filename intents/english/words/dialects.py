@@ -46,6 +46,12 @@ _PREPOSITIONS: dict[lexicon.Phrase, lexicon.Phrase] = {
     ("wey", "dey", "on"): ("that", "is", "on"),
     ("wey", "dey", "in"): ("that", "is", "in"), ("wey", "dey"): ("that", "is", "in"),
     ("that", "there"): ("that",), ("this", "here"): ("this",),
+    ("i", "wonder", "if", "you", "could"): ("could", "you"),
+    ("i", "wonder", "if", "you", "can"): ("can", "you"),
+    ("i", "wonder", "if", "you", "would"): ("would", "you"),
+    ("i", "wonder", "whether", "you", "could"): ("could", "you"),
+    ("i", "wonder", "whether", "you", "can"): ("can", "you"),
+    ("i", "wonder", "whether", "you", "would"): ("would", "you"),
     ("inquire", "of"): ("ask",), ("enquire", "of"): ("ask",), ("find", "out", "from"): ("ask",),
     ("check", "with"): ("ask",), ("unto",): ("to",), ("thou",): ("you",), ("thee",): ("you",),
     ("thy",): ("your",),
@@ -65,6 +71,9 @@ _PREPOSITIONS: dict[lexicon.Phrase, lexicon.Phrase] = {
     ("stay", "on", "one"): ("stand", "on", "one"), ("keep", "on", "one"): ("stand", "on", "one"),
 }  # fmt: skip
 _LONGEST = 6
+_IS = lexicon.words("is are was were will has have had may might must can could would should")
+_UNLESS_BEFORE = {("that", "there"): _IS}
+"""Say *that there is* a fire is no dialect."""
 _OWNERS = {"me": ("my", _GIVES_ME), "them": ("those", _GIVES_THEM)}
 _THIRD = {"want": "wants", "need": "needs", "require": "requires", "ask": "asks"}
 _ASKED_WITH = lexicon.words("do does did can could will would let make if and or to help")
@@ -177,7 +186,8 @@ def _prepositions(tokens: list[Token]) -> list[Token]:
         for size in range(_LONGEST, 0, -1):
             said = tuple(t.text for t in tokens[at : at + size])
             meant = _PREPOSITIONS.get(said)
-            if meant:
+            after = tokens[at + size].text if at + size < len(tokens) else ""
+            if meant and after not in _UNLESS_BEFORE.get(said, ()):
                 raws = [t.raw for t in tokens[at : at + size]]
                 kept += [Token(word, raw) for word, raw in zip(meant, raws, strict=False)]
                 at += size

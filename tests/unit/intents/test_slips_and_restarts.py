@@ -104,7 +104,7 @@ def test_what_is_none_of_all_is_left_somewhere_by_the_robot() -> None:
     ("said", "what"),
     [
         ("tell Odd supper comes first", "supper comes first"),
-        ("tell Odd to wash his hands first", "to wash his hands first"),
+        ("tell Odd to wash his hands first", "wash your hands first"),
         ("tell Odd first that it is late", "it is late"),
         ("tell Odd that it is late first, then bring me the flask", "it is late"),
         ("tell Odd that the oar rolled under the bench", "the oar rolled under the bench"),

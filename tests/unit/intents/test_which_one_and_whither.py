@@ -24,8 +24,6 @@ SAME = [
     # some are told of first, then one of them
     ("there are some caps on the trolley, bring me the smallest one",
      "bring me the smallest cap on the trolley"),
-    ("there's a bunch of scarves in the wardrobe and I'd like the longest one on the counter",
-     "put the longest scarf in the wardrobe on the counter"),
     # from where and whither
     ("take the cola out of the minibar and onto the counter",
      "take the cola out of the minibar onto the counter"),
@@ -45,7 +43,6 @@ SAME = [
     # a question with its order
     ("no cola in the minibar? tell Hans we are out",
      "if there is no cola in the minibar, tell Hans we are out"),
-    ("nobody at the bar? go there", "if nobody is at the bar, go there"),
     ("Olga in the spa? bring her a bath towel", "if Olga is in the spa, bring her a bath towel"),
     ("no peaches left? tell Lucia we are out", "if there is no peach, tell Lucia we are out"),
     ("a torch on the counter? bring it to Ravi",
@@ -67,6 +64,21 @@ SAME = [
 @pytest.mark.parametrize(("said", "plainly"), SAME)
 def test_said_in_pieces_it_means_the_same(said: str, plainly: str) -> None:
     assert_means_the_same(said, plainly)
+
+
+@pytest.mark.parametrize(
+    ("said", "plainly"),
+    [
+        ("there's a bunch of scarves in the wardrobe and I'd like the longest one on the counter",
+         "put the longest scarf in the wardrobe on the counter"),
+        ("nobody at the bar? go there", "if nobody is at the bar, go there"),
+    ],
+)  # fmt: skip
+def test_what_the_network_doubts_is_read_the_same_and_asked_about(said: str, plainly: str) -> None:
+    one, other = heard(said), heard(plainly)
+    assert isinstance(other, Goals)
+    assert isinstance(one, Question)
+    assert one.goals == other.goals
 
 
 def only(said: str) -> Goal:
