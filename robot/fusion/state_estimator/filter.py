@@ -330,6 +330,9 @@ class ContactFilter:
         repeats = max(1.0, 2.0 * k.flat_time_s / since_s)
         tilted = 1.0 + (ux * ux + uy * uy) / (2.0 * k.flat_rad) ** 2  # on an edge it tells less
         raised = 1.0 + (height / (2.0 * k.height_m)) ** 2
+        higher = abs(height) - abs(float(self.feet[1 - side][2])) - k.step_m
+        if higher > 0.0:  # on a sill, not on the floor
+            raised *= (1.0 + (higher / (0.4 * k.height_m)) ** 2) ** 2
         self._noise[row] = self._noise[row + 1] = tilted * repeats * k.flat_rad**2
         self._noise[row + 2] = raised * tilted * repeats * k.height_m**2
         return row + 3

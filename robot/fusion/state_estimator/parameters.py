@@ -27,6 +27,7 @@ class Parameters(msgspec.Struct, frozen=True, kw_only=True):
         foot_rad: the same of its orientation.
         flat_rad: how far from level a sole stands that bears weight.
         height_m: how far from the floor's height it stands.
+        step_m: a sole that is so much farther from it than the other one stands on something.
         flat_time_s: for how long one such error lasts; a sole does not stand anew each sample.
         tilt_rad: of the first orientation.
         velocity_m_s: of the first velocity.
@@ -52,6 +53,7 @@ class Parameters(msgspec.Struct, frozen=True, kw_only=True):
     foot_rad: float = 0.2 * DEG
     flat_rad: float = 2.5 * DEG
     height_m: float = 0.005
+    step_m: float = 0.011
     flat_time_s: float = 0.5
     tilt_rad: float = 1.5 * DEG
     velocity_m_s: float = 0.05
