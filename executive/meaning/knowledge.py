@@ -8,7 +8,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from executive.skills.motions.support import stands_on
+from executive.skills.motions.support import surface_under
 from intents.grounding import Entity
 from intents.numbers import Noun, plural
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
@@ -93,9 +93,8 @@ class Knowledge:
         return tuple(exact or others)
 
     def surface_under(self, X_WO: SE3) -> Place | None:
-        """The surface that something stands on: the highest one right under it."""
-        under = [place for place in self.map.places if not place.floor and stands_on(X_WO, place)]
-        return max(under, key=lambda place: place.X_WP.p[2], default=None)
+        """The surface that something stands on, if any."""
+        return surface_under(X_WO, self.map.places)
 
     def room_at(self, p_W: Vector3) -> str:
         """The name of the room that a point is in, empty if in none."""

@@ -13,10 +13,11 @@ from msgspec.structs import replace
 from executive.blackboard import HELD, WORLD, Blackboard
 from executive.meaning.handlers.steps import about, search, to_look_over, tolerant, visit
 from executive.meaning.identify import CannotMean, Scene
-from executive.meaning.knowledge import Knowledge, stands_on
+from executive.meaning.knowledge import Knowledge
 from executive.meaning.robot_state import state_of
 from executive.meaning.viewpoint import facing
 from executive.skills.look import LookParams
+from executive.skills.motions.support import stands_on
 from executive.skills.navigate import NavigateParams
 from executive.trees.parts import Errand, GiveUp, Part, Series, Settle
 from intents import goals, relations

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from executive.skills.motions.habits import usual_places
-from executive.skills.motions.support import stands_on
+from executive.skills.motions.support import surface_under
 from executive.skills.motions.survey import Prospect
 from robot.messages import ObjectInfo, Place, Track, WorldMap
 
@@ -40,7 +40,7 @@ def prospects(
     here: dict[str, list[ObjectInfo]] = {}
     surfaces = surfaces_of(world_map)
     for track, other in seen:
-        on = _under(track, surfaces)
+        on = surface_under(track.X_WO, surfaces) if track.X_WO is not None else None
         if on is not None and other is not None and other.id != info.id:
             here.setdefault(on.id, []).append(other)
     rooms = {
@@ -109,10 +109,3 @@ def _begins(name: str, word: str) -> bool:
 
 def _is_known(track: Track) -> bool:
     return track.X_WO is not None and not track.missing and track.held_by is None
-
-
-def _under(track: Track, places: Iterable[Place]) -> Place | None:
-    """The highest surface that something stands on."""
-    X_WO = track.X_WO
-    under = [place for place in places if X_WO is not None and stands_on(X_WO, place)]
-    return max(under, key=lambda place: place.X_WP.p[2], default=None)

@@ -7,6 +7,7 @@ find it sunk into the table, and the hand grasps it at the height that was meant
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 import msgspec
 
@@ -23,6 +24,9 @@ reality `harsh`) sees what is 3 m away so much too low."""
 UPRIGHT_RAD = 0.2
 OVERHANG_M = 0.02
 LEAST_ON_M, ON_TOP_M = -0.05, 0.3
+FROM_AFAR_M = 0.12
+"""Across a room the same nod (`SUNK_M`) shows a thing so far below what it stands on: 0.12 m from
+4.5 m. Nothing else is there within that height, so it is taken to stand on it."""
 TOUCHING_M = 0.01
 """Two things as near as this are taken to touch: where they stand is known that well."""
 
@@ -48,15 +52,34 @@ def stands_on(X_WO: SE3, place: Place) -> bool:
 
     A flat thing that is seen from afar may be seen below it (`SUNK_M`).
     """
-    x, y, z = (place.X_WP.inverse() @ X_WO).p
-    inside = abs(x) <= 0.5 * place.size_m[0] and abs(y) <= 0.5 * place.size_m[1]
-    return inside and LEAST_ON_M <= z <= min(ON_TOP_M, place.clearance_m)
+    above_m = _above_m(X_WO, place)
+    return LEAST_ON_M <= above_m <= min(ON_TOP_M, place.clearance_m)
+
+
+def surface_under(X_WO: SE3, places: Iterable[Place]) -> Place | None:
+    """The surface that something stands on: the highest one right under it.
+
+    If there is none, it is the one right above its middle, by no more than `FROM_AFAR_M`.
+    """
+    surfaces = [place for place in places if not place.floor]
+    under = [place for place in surfaces if stands_on(X_WO, place)]
+    if under:
+        return max(under, key=lambda place: place.X_WP.p[2])
+    above = [place for place in surfaces if -FROM_AFAR_M <= _above_m(X_WO, place) < 0.0]
+    return min(above, key=lambda place: place.X_WP.p[2], default=None)
 
 
 def rests_on(X_WO: SE3, info: ObjectInfo, place: Place) -> bool:
     """Whether an object's underside is at a surface, or at a floor: no hand holds it up."""
     bottom_m = X_WO.p[2] + info.shape.X_BodyShape.p[2] - 0.5 * info.shape.size_m[2]
     return stands_on(X_WO, place) and bottom_m - place.X_WP.p[2] < NEAR_M
+
+
+def _above_m(X_WO: SE3, place: Place) -> float:
+    """How far an object's middle is above a surface [m]; not a number if it is not over it."""
+    x, y, z = (place.X_WP.inverse() @ X_WO).p
+    inside = abs(x) <= 0.5 * place.size_m[0] and abs(y) <= 0.5 * place.size_m[1]
+    return z if inside else math.nan
 
 
 def pose_on_support(body: Body, object_id: str, X_WO: SE3) -> SE3:

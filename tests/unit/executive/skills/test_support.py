@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from executive.skills.motions.support import stands_on, supported
+from executive.skills.motions.support import stands_on, supported, surface_under
 from robot.se3 import SE3
 from tests.fakes.stage import TABLE_M, kitchen
 
@@ -56,3 +56,26 @@ def test_of_two_surfaces_the_nearer_one_counts() -> None:
     for places in ((low, high), (high, low)):
         seen = SE3((x_m, y_m, z_m + 0.01 + bottom_m))
         assert supported(seen, CUP, places).p[2] == pytest.approx(z_m + bottom_m)
+
+
+@given(st.floats(1.72, 2.28), st.floats(-0.48, 0.48), st.floats(-0.119, 0.29))
+def test_what_is_seen_too_low_across_a_room_is_on_the_surface_over_it(x, y, above_m) -> None:
+    """Two things on a desk, seen from 4.4 m, "did not stand on one surface"."""
+    found = surface_under(SE3((x, y, TABLE_M + above_m)), MAP.places)
+    assert found is not None
+    assert found.id == "table"
+
+
+@given(st.floats(0.0, 0.29), st.floats(0.14, 0.3))
+def test_a_board_that_something_is_over_counts_before_the_one_above_it(above_m, gap_m) -> None:
+    low = msgspec.structs.replace(MAP.place("table"), id="low", clearance_m=gap_m)
+    x_m, y_m, z_m = low.X_WP.p
+    high = msgspec.structs.replace(low, id="high", X_WP=SE3((x_m, y_m, z_m + gap_m)))
+    for places in ((low, high), (high, low)):
+        found = surface_under(SE3((x_m, y_m, z_m + min(above_m, gap_m - 0.06))), places)
+        assert found is low
+
+
+@pytest.mark.parametrize("p_WO", [(2.0, 0.0, 0.05), (3.0, 0.0, TABLE_M + 0.05), (2.0, 0.0, 2.0)])
+def test_what_is_beneath_beside_or_far_above_is_on_no_surface(p_WO) -> None:
+    assert surface_under(SE3(p_WO), MAP.places) is None
