@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -26,6 +27,12 @@ SHARE_PER_M = 1.5
 """Cost of a metre between a spot and where the robot can stand."""
 MOST_RAISED_M = 0.01
 """A low thing is let go so far above its place at most, to keep the fingertips clear of it."""
+UNDER_A_BOARD_M = 1.0
+"""With less free height than this above a place, a hand that is still over it as the robot stands
+up meets what is there."""
+FARTHER_BACK_M = (0.05, 0.10)
+"""So much farther the hand is drawn back there, if it must be: a train on a board 0.45 m high, the
+next one 0.30 m above it, could not be let go where the robot squats for that."""
 EDGE_M = 0.025
 """Between an object and the edge of what it is put on [m]."""
 
@@ -70,11 +77,12 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
     names = {info.id: info.name for info in around.map.objects}
     yaws, gripping = _yaws(request), body.description.handy.gripping
     spots = spots + np.array([0.0, 0.0, _raised_m(request.held, gripping)])
+    option = held_option(request.held.X_GO, shape, yaws=yaws, gripping=gripping)
     problem = HandlingProblem(
         kind="place",
         object_id=request.held.id,
         shape=shape,
-        options=[held_option(request.held.X_GO, shape, yaws=yaws, gripping=gripping)],
+        options=[option],
         references=spots,
         reference_cost=cost,
         others=others,
@@ -83,10 +91,22 @@ def plan_place(body: Body, request: PlaceRequest) -> PlacePlan | Failure:
         people=people_of(request.around),
         what=f"the {place.name} with the {names.get(request.held.id, request.held.id)}",
     )
-    choice = search(
-        body, problem, floor, sides=(request.side,), start=request.start, seed=request.seed
-    )
-    return choice if isinstance(choice, Failure) else _plan(body, choice, request)
+    choice = first = _search(body, problem, floor, request)
+    for more_m in FARTHER_BACK_M if place.clearance_m < UNDER_A_BOARD_M else ():
+        if not isinstance(choice, Failure) or choice.code != "goal_in_collision":
+            break
+        farther = replace(option, back_m=option.back_m + more_m)
+        choice = _search(body, replace(problem, options=[farther]), floor, request)
+    if not isinstance(choice, Failure):
+        return _plan(body, choice, request)
+    return first if isinstance(first, Failure) else choice
+
+
+def _search(
+    body: Body, problem: HandlingProblem, floor: Floor, request: PlaceRequest
+) -> Choice | Failure:
+    sides = (request.side,)
+    return search(body, problem, floor, sides=sides, start=request.start, seed=request.seed)
 
 
 def _plan(body: Body, choice: Choice, request: PlaceRequest) -> PlacePlan:
