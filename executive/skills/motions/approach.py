@@ -21,7 +21,7 @@ from executive.skills.motions.reach import move_arm
 from executive.skills.motions.script import OVER, Script, side_by_side
 from executive.skills.motions.walk import stand_still, walk_near
 from robot.failures import Failure
-from robot.messages import ObjectInfo
+from robot.messages import HoldArm, ObjectInfo
 from robot.planning.requests import BodyPosture, Joints, PickPlan, PlacePlan, Stance
 from robot.se3 import SE3
 
@@ -177,7 +177,9 @@ def come_nearer(body: Body, plan: PickPlan | PlacePlan, reason: Failure) -> Scri
 def withdraw(body: Body, plan: PickPlan | PlacePlan, arm_rad: Joints, *, what: str) -> Script[None]:
     """Straighten up, step back to the standoff, and bring the arm to `arm_rad`.
 
-    A hand over an edge is raised first: the trunk goes down as it straightens up.
+    A hand over an edge is raised first: the trunk goes down as it straightens up. What is held goes
+    up with the trunk, as was planned: a hand that has come along a line stays where it is in the
+    world, and took a remote control off a sofa into the sofa's arm.
     """
     keep_upright = body.context.holdings.must_stay_upright(plan.side)
     if plan.over is not None and plan.over.away_rad is not None:
@@ -185,6 +187,8 @@ def withdraw(body: Body, plan: PickPlan | PlacePlan, arm_rad: Joints, *, what: s
         yield from move_arm(body, plan.side, plan.over.away_rad, keep_upright=keep_upright)
     if plan.posture != BodyPosture():
         body.phase = "straightening up"
+        if body.context.holdings.at(plan.side) is not None:
+            body.send(HoldArm(**body.header(), side=plan.side))
         yield from stand_still(body)
     body.phase = f"stepping back from the {what}"
     X_WS_goal = pose_of(plan.standoff)

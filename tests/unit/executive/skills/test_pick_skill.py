@@ -13,6 +13,7 @@ from robot.failures import failure
 from robot.messages import (
     DepthImage,
     Grip,
+    HoldArm,
     MoveArm,
     MoveHand,
     Obstacle,
@@ -82,6 +83,18 @@ def test_the_lift_is_straight_up(stage):
     grasp = [c for c in stage.puppet.sent[:closed] if isinstance(c, MoveHand)][-1]
     assert lift.X_NG.p[2] - grasp.X_NG.p[2] == pytest.approx(0.1, abs=0.01)
     assert math.dist(lift.X_NG.p[:2], grasp.X_NG.p[:2]) < 0.01
+
+
+def test_what_is_held_goes_up_with_the_trunk_as_it_straightens_up(stage):
+    """A hand that ended a line stays where it is in the world: its joints are held before that."""
+    stage.run(CUP)
+    sent = stage.puppet.sent
+    lifted = max(i for i, c in enumerate(sent) if isinstance(c, MoveHand))
+    after = [c for c in sent[lifted + 1 :] if isinstance(c, HoldArm | Stand | MoveArm)]
+    assert isinstance(after[0], HoldArm)
+    assert after[0].side == sent[lifted].side
+    assert isinstance(after[1], Stand)
+    assert after[1].pitch_rad == 0.0
 
 
 def test_the_held_object_is_planned_with_and_kept_upright(stage):
