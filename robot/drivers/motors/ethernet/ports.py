@@ -80,7 +80,11 @@ class UdpPorts(Closing):
                 opened = self._opened[name] = socket.socket(family, socket.SOCK_DGRAM)
                 opened.settimeout(0.0)
                 # A port of its own from the beginning; nothing is sent, so nobody has to answer.
-                opened.bind(("::" if family == socket.AF_INET6 else "0.0.0.0", 0))
+                # On loopback where the board is: no other machine may speak to it.
+                every = "::" if family == socket.AF_INET6 else "0.0.0.0"
+                opened.bind(
+                    (address[0] if ipaddress.ip_address(address[0]).is_loopback else every, 0)
+                )
             except OSError as error:
                 self.close()
                 text = f"the board {name!r} ({board.channel}) cannot be reached: {error.strerror}"
