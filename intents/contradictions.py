@@ -21,6 +21,7 @@ from intents.goals import (
     Answer,
     Ask,
     Bring,
+    Condition,
     ForEach,
     Give,
     Goal,
@@ -33,6 +34,7 @@ from intents.goals import (
     Place,
     Say,
     each,
+    simple_conditions,
     to_builtins,
 )
 
@@ -46,7 +48,8 @@ _TAKES_BACK = re.compile(
 """What takes back what was said before it."""
 _THEN = re.compile(r"\b(?:then|afterwards|after that|next|first|both)\b")
 _OTHERWISE = re.compile(
-    r"(?:[,.;:…—–]|\bor|\band)\s*(?:otherwise|elsewise|else|if not|failing (?:that|which))\b\W*"
+    r"(?:[,.;:…—–]|\bor|\band)\s*(?:otherwise|elsewise|else|(?P<if_not>if not)|"
+    r"failing (?:that|which))\b\W*"
     r"(?P<then>.*)"
 )
 _NOTHING = re.compile(
@@ -191,8 +194,15 @@ def _lost_otherwise(plain: str, every: Sequence[Goal]) -> Iterator[str]:
         return
     for found in _OTHERWISE.finditer(plain):
         rest = found["then"]
+        if found["if_not"] and all(_is_denied(goal.condition) for goal in conditions):
+            continue  # see if it is there, and if not bring it: that is the case that was told
         if len(rest.split()) > 1 and not _NOTHING.match(rest):
             yield found.group().strip(" ,.;:")
+
+
+def _is_denied(holds: Condition) -> bool:
+    """Whether it is the case that something is not so."""
+    return all(one.negated for one in simple_conditions(holds))
 
 
 def _lost_exception(plain: str, every: Sequence[Goal], index: NameIndex) -> Iterator[str]:

@@ -61,6 +61,7 @@ IS = ("is", "are", "stands", "stand", "stays", "be")
 _NO = ("no", "not", "never", "nothing", "any", "neither")
 _THERE = ("there", "here", "present", "visible", "available", "around", "home", "left")
 _THEREON = phrases("on it,on them,in it,in them,there,on top,on top of it,inside,inside it")
+_BACK = ("back", "to", "for")
 _GONE = ("missing", "gone", "absent", "away")
 _IN_HAND = phrases("in your hand,in your hands,in the hand,in your gripper,in hand,with you")
 _STATES = ("open", "closed", "on", "off", "empty", "full")
@@ -125,12 +126,33 @@ def _asked(text: Text, at: int, scope: Scope) -> tuple[Condition, int] | None:
     last = scope.last
     if not isinstance(last, Find):
         return None
+    said = _taken_up(text, at)
+    if said is None:
+        return None
+    return Present(object=last.object, person=last.person, negated=said[0]), said[1]
+
+
+def _taken_up(text: Text, at: int) -> tuple[bool, int] | None:
+    """Whether what was asked before is denied, and where that ends: if *it is not* (so)."""
     for table, negated in ((_SO, False), (_NOT_SO, True)):
         end = text.phrase_end(table, at)
-        ends = end and (text.word(end) in (COMMA, FULL_STOP, "then") or text.word(end - 1) == "so")
-        if end and ends:
-            return Present(object=last.object, person=last.person, negated=negated), end
+        if end and (
+            text.word(end) in (COMMA, FULL_STOP, "then")
+            or text.word(end - 1) == "so"
+            or _order_begins(text, end)
+        ):
+            return negated, end
     return None
+
+
+def _order_begins(text: Text, at: int) -> bool:
+    """... and if it is not *put it there*; "if it is *open*" goes on, and so does "clean"."""
+    told = (*_STATES, *_GONE, *_THERE, *_BEING)
+    if text.word(at) in told or text.lookup(LOCATIVES, at):
+        return False
+    return any(
+        noun_phrase(text, end) or text.word(end) in _BACK for _, end in verbs_at(text.words, at)
+    )
 
 
 def _condition(text: Text, at: int, scope: Scope) -> tuple[Condition, int]:
