@@ -14,6 +14,7 @@ from intents.english.substitution import substitute
 from intents.english.trouble import ReadingError
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
+from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import Person
 
@@ -24,9 +25,16 @@ _KNOWN = lexicon.phrases(
     "i have dropped,i set,i laid,i stuck,i parked,i popped,i stowed,i stashed,i tucked,i hung,"
     "she left,he left,they left,he forgot,she forgot,somebody left,someone left"
 )
+_LEFT = lexicon.phrases(
+    "left,forgot,dropped,lost,has left,has forgotten,has dropped,has lost,have left,have forgotten,"
+    "have dropped,have lost,must have left,must have forgotten,must have dropped,had left"
+)
+_PRONOUNS = lexicon.words("he she they who")
 _TAKEN_UP = lexicon.words("it them one ones that those")
-_SOMEWHERE = lexicon.words("somewhere here there yesterday earlier today just now around again")
-_ABOUT = lexicon.words("down back away up out off")
+_SOMEWHERE = lexicon.words(
+    "somewhere here there yesterday earlier today just now around again lying about"
+)
+_ABOUT = lexicon.words("down back away up out off behind")
 _SHORT = 4
 """What is said of somebody in so many words is a remark."""
 
@@ -47,7 +55,7 @@ def aimed_at(sentence: Sentence, at: int) -> Found | None:
 
 def left_somewhere(sentence: Sentence, at: int) -> Found | None:
     """I left my comb on the bench: it is noted; I need my comb, *I left it on the bench*."""
-    start = sentence.text.phrase_end(_KNOWN, at)
+    start = sentence.text.phrase_end(_KNOWN, at) or _left_by_somebody(sentence.text, at)
     phrase = noun_phrase(sentence.text, start) if start else None
     if phrase is None:
         return None
@@ -64,6 +72,15 @@ def left_somewhere(sentence: Sentence, at: int) -> Found | None:
     while text.word(end) in _SOMEWHERE:
         end += 1
     return [], end
+
+
+def _left_by_somebody(text: Text, at: int) -> int | None:
+    """Past *a guest left*, *one of the guests has forgotten*: of somebody who has no name."""
+    one_of = 2 * (text.words[at : at + 2] in (["one", "of"], ["some", "of"]))
+    who = None if verbs_at(text.words, at) else noun_phrase(text, at + one_of)
+    if who is None or who.noun != "person" or who.said in _PRONOUNS:
+        return None
+    return text.phrase_end(_LEFT, who.end)
 
 
 def found_there(sentence: Sentence, at: int) -> Found | None:
