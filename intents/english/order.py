@@ -25,6 +25,7 @@ from intents.english.reading import Rules
 from intents.english.readings import (
     arms_down,
     asides,
+    belonging,
     beneficiaries,
     conditionals,
     ellipsis,
@@ -98,6 +99,10 @@ RULES = Rules(
         movements.to_and_fro,
         movements.patrol,
         verb.tidied_by,
+        # The robot cannot tidy by itself, and knows where "away" is only from what was said.
+        belonging.room_tidied,
+        belonging.home_told,
+        belonging.put_home,
         trying.tried,
         questions.went_to_see,
         questions.whether,

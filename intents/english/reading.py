@@ -60,6 +60,7 @@ class Notes:
         trace: Each clause as it was said, with what it was read as by itself.
         passed: From where to where words stand that ask for nothing, or were taken back.
         forbidden: What is not to be done.
+        homes: Where it was last told that things belong, as what is to be done.
         guessed: Verbs that nobody knows, taken for moving a thing to where it is to be.
     """
 
@@ -72,6 +73,7 @@ class Notes:
     )
     passed: list[tuple[int, int]] = field(default_factory=list[tuple[int, int]])
     forbidden: list[Forbidden] = field(default_factory=list["Forbidden"])
+    homes: tuple[Goal, ...] = ()
     guessed: list[str] = field(default_factory=list[str])
 
 

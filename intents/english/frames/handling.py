@@ -5,10 +5,10 @@ from collections.abc import Callable
 
 from msgspec.structs import replace
 
-from intents.english.frames import motion
+from intents.english.frames import homes, motion
 from intents.english.frames.slots import Slots, detach_place, need
 from intents.english.frames.targets import MOVES, Target, destination, moved_beside, put_at, to_part
-from intents.english.phrases.complements import Clause, Complement, connector_end, read_complements
+from intents.english.phrases.complements import Clause, Complement, connector_end
 from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.referents import ME, Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Unclear
@@ -40,7 +40,6 @@ _ON_THE_WAY = words(
 """Verbs that take a thing somewhere, and not to who speaks."""
 _IT = words("it they that those")
 _PUT_AT = words("on onto in into next beside by near")
-_LIVES = words("lives live goes go belongs belong")
 _TOLD_WHERE = words("that which")
 """With one of these it is told where a thing is: "I want the vase *that* is on the sill"."""
 _OVER = words("over up down out back across through round")
@@ -50,7 +49,7 @@ _THROW = ("throw", "discard", "dispose", "trash", "bin", "recycle", "dump", "tos
 def pick(clause: Clause, scope: Scope) -> list[Goal]:
     """Pick up the cup; lift the lid off the pot."""
     slots = Slots(clause, scope)
-    if _goes_inside(clause, scope):
+    if _goes_inside(clause, scope) or (homes.collects(clause) and homes.home(clause, scope)):
         return put(clause, scope)
     together = _gathered(clause, slots)
     if together:
@@ -404,7 +403,7 @@ def put(clause: Clause, scope: Scope) -> list[Goal]:
         return bring(dataclasses.replace(clause, verb=verb), scope)
     if bare and clause.verb == "tidy" and bare.phrase.is_spot:
         raise NotUnderstood("I cannot tidy up by myself; tell me what is to go where")
-    spot = None if _disposes(clause) and not clause.with_role("to", "into") else destination(slots)
+    spot = _whither(clause, slots)
     if spot and spot.relation and bare and len(bare.phrases[-1].places) > 0:
         surface = bare.phrases[-1].places[-1]  # on the shelf next to the vase: the vase says where
         if surface.how in ("on", None) and surface.of.is_spot and not surface.of.name("room"):
@@ -442,20 +441,18 @@ def _left_there(slots: Slots, scope: Scope) -> list[Goal]:
 
 def _told_otherwise(clause: Clause, scope: Scope) -> Target | None:
     """Where to, by the verb ("throw it away") or behind the order."""
-    return Target(in_=_trash(scope)) if _throws(clause) else _home(clause, scope)
+    return Target(in_=_trash(scope)) if _throws(clause) else homes.home(clause, scope)
 
 
-def _home(clause: Clause, scope: Scope) -> Target | None:
-    """Put it away, *it lives in the drawer*: where it belongs, told behind the order."""
-    text, at = clause.text, clause.end
-    at += text.word(at) in (COMMA, FULL_STOP)
-    if at >= len(text) or text.word(at) not in _IT:
-        return None
-    at += 1 + (text.word(at + 1) in ("all", "both"))  # they all belong in the box
-    if text.word(at) not in _LIVES:
-        return None
-    complements, _ = read_complements(text, at + 1)
-    return destination(Slots(dataclasses.replace(clause, complements=complements), scope))
+def _whither(clause: Clause, slots: Slots) -> Target | None:
+    """Where something is to be put, as it is told behind an order that only says "away", or in it.
+
+    "Get rid of the cups on the bar" tells where they are.
+    """
+    home = homes.home(clause, slots.scope) if homes.tidies_away(clause) else None
+    if home is not None or (_disposes(clause) and not clause.with_role("to", "into")):
+        return home
+    return destination(slots)
 
 
 def _is_kept_by_somebody(clause: Clause, slots: Slots) -> bool:
@@ -490,20 +487,21 @@ def swap(clause: Clause, scope: Scope) -> list[Goal]:
 
 
 def clear(clause: Clause, scope: Scope) -> list[Goal]:
-    """Clear the table; empty the shelf onto the counter; clear everything off the table."""
+    """Clear the table; empty the shelf onto the counter; clear up the cups, they go on the bar."""
     slots = Slots(clause, scope)
     bare = slots.peek("")
     if bare is None or len(bare.phrases) > 1:
         raise Misfit("clear what?")
     if bare.phrase.is_spot and (of := slots.take("of")):
         return _cleared_of(slots, bare, of)
-    spot = destination(slots)
+    home = None if bare.phrase.is_spot else homes.home(clause, scope)
+    spot = home or destination(slots)
     if bare.phrase.is_spot:
         slots.rest.remove(bare)
         objects = [ObjectQuery(count="all", at=to_place(bare.phrase, scope))]
     else:
         objects = slots.objects(handled=True)
-    if any(query.at is None for query in objects):
+    if home is None and any(query.at is None for query in objects):
         raise Misfit("clear what?")
     slots.done()
     if spot is None:

@@ -51,6 +51,7 @@ _LYING_AROUND = lexicon.words(
 )
 
 
+_BELONGS = lexicon.words("goes go belongs belong lives live")
 _WHERE_IT_BELONGS = lexicon.phrases(
     "where it belongs,where they belong,where it lives,where they live,where it goes,where they go,"
     "where it should be,where they should be,where it ought to be,where it usually is,"
@@ -433,7 +434,9 @@ def _aside(text: Text, phrase: NounPhrase, at: int) -> int | None:
         return None
     there = text.word(at) == "there" or text.words[at : at + 2] == ["over", "there"]
     end = at + 1 + (text.word(at) == "over")
-    if there and phrase.is_person and text.word(end) not in ("is", "are"):
+    told = phrase.is_person and text.word(end) not in ("is", "are")
+    belongs = phrase.name("object", "category") and text.word(end) in _BELONGS
+    if there and (told or belongs):
         phrase.places.append(Locative(None, NounPhrase(at, end, noun="there", said="there")))
         return end
     return None

@@ -22,6 +22,7 @@ from intents.english.reading import Found, SaidVerb, Sentence
 from intents.english.trouble import ReadingError
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA
+from intents.english.words.text import Text
 from intents.english.words.verbs import FIRST_WORDS, SENSES, base_form, participle_base, verbs_at
 from intents.goals import Bring, Guide, Switch
 
@@ -58,7 +59,8 @@ _PASSIVE = lexicon.phrases(
     "it is to be,wants to get,needs to get,need to get,must get,should get,is to get"
 )
 _BELONGS = lexicon.phrases(
-    "goes,go,belongs,belong,should go,has to go,have to go,needs to go,need to go,must go,"
+    "goes,go,belongs,belong,should go,has to go,have to go,needs to go,need to go,"
+    "must go,"
     "should be,has to be,must be,needs to be,ought to go,is supposed to go,is to go,are to go,"
     "are supposed to go,is meant to go,are meant to go,can go,could go,is going,are going,gotta go"
 )
@@ -184,6 +186,8 @@ def _all_of_these(sentence: Sentence, at: int) -> Found | None:
         return None
     last = things[-1]
     last.end = end
+    for one in things:
+        one.places = one.places or list(last.places)
     found = _belongs(sentence, at, last, things)
     return found or _passive(sentence, last, [Complement(phrases=things)])
 
@@ -212,7 +216,19 @@ def _belongs(
         found = [to_object(one, scope) for one in things or [phrase]]
         return ([Bring(object=one, to=person) for one in found], where[1]) if person else None
     sentence.notes.verb = SaidVerb(at, at + 1, ("put",))
-    return _put(sentence, at, phrase, *where, things=things)
+    found = _put(sentence, at, phrase, *where, things=things)
+    sentence.notes.homes = tuple(found[0])
+    return found
+
+
+def belongs_somewhere(text: Text, at: int) -> bool:
+    """Whether it is told from a word on where a thing belongs: *the mugs go on the rack*."""
+    phrase = noun_phrase(text, at)
+    return (
+        phrase is not None
+        and bool(phrase.name("object", "category"))
+        and text.phrase_end(_BELONGS, phrase.end) is not None
+    )
 
 
 def _passive(
