@@ -4,12 +4,12 @@
 you put them away*".
 """
 
+from intents.english.clauses.belonging import belongs_somewhere
 from intents.english.frames.homes import told_home
 from intents.english.phrases.complements import ends_clause
 from intents.english.phrases.noun_phrases import noun_phrase
 from intents.english.phrases.referents import to_place
 from intents.english.reading import Found, Sentence
-from intents.english.readings.ends import belongs_somewhere
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP
 from intents.goals import ForEach, Place

@@ -4,6 +4,7 @@
 should be brought to me"; "the lamp should be on"; "see that Ada gets the pencil".
 """
 
+from intents.english.clauses.belonging import BELONGS
 from intents.english.clauses.results import brought_about, made_so
 from intents.english.clauses.verb_clauses import framed
 from intents.english.clauses.wishes import WISHES
@@ -22,7 +23,6 @@ from intents.english.reading import Found, SaidVerb, Sentence
 from intents.english.trouble import ReadingError
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA
-from intents.english.words.text import Text
 from intents.english.words.verbs import FIRST_WORDS, SENSES, base_form, participle_base, verbs_at
 from intents.goals import Bring, Guide, Switch
 
@@ -57,12 +57,6 @@ _PASSIVE = lexicon.phrases(
     "can be,could be,needs,wants to be,shall be,will be,may be,would need to be,need,wants,want,"
     "is needing,are needing,is wanting,are wanting,requires,require,is in need of,could do with,"
     "it is to be,wants to get,needs to get,need to get,must get,should get,is to get"
-)
-_BELONGS = lexicon.phrases(
-    "goes,go,belongs,belong,should go,has to go,have to go,needs to go,need to go,"
-    "must go,"
-    "should be,has to be,must be,needs to be,ought to go,is supposed to go,is to go,are to go,"
-    "are supposed to go,is meant to go,are meant to go,can go,could go,is going,are going,gotta go"
 )
 _ALL_THINGS = lexicon.words("everything all thing things stuff")
 _NARROWS = lexicon.words("that which who not no is are was but except")
@@ -200,7 +194,7 @@ def _belongs(
     Of several `things`, the `phrase` is the last.
     """
     text, scope = sentence.text, sentence.scope
-    start = text.phrase_end(_BELONGS, phrase.end)
+    start = text.phrase_end(BELONGS, phrase.end)
     everything = phrase.said in _ALL_THINGS and bool(phrase.places)  # everything on the bar
     everything = everything and _NARROWS.isdisjoint(text.words[phrase.start : phrase.end])
     if start is None or phrase.is_person:
@@ -219,16 +213,6 @@ def _belongs(
     found = _put(sentence, at, phrase, *where, things=things)
     sentence.notes.homes = tuple(found[0])
     return found
-
-
-def belongs_somewhere(text: Text, at: int) -> bool:
-    """Whether it is told from a word on where a thing belongs: *the mugs go on the rack*."""
-    phrase = noun_phrase(text, at)
-    return (
-        phrase is not None
-        and bool(phrase.name("object", "category"))
-        and text.phrase_end(_BELONGS, phrase.end) is not None
-    )
 
 
 def _passive(
