@@ -72,7 +72,7 @@ _PREPOSITIONS: dict[lexicon.Phrase, lexicon.Phrase] = {
 }  # fmt: skip
 _LONGEST = 6
 _IS = lexicon.words("is are was were will has have had may might must can could would should")
-_UNLESS_BEFORE = {("that", "there"): _IS}
+_UNLESS_BEFORE: dict[tuple[str, ...], frozenset[str]] = {("that", "there"): _IS}
 """Say *that there is* a fire is no dialect."""
 _OWNERS = {"me": ("my", _GIVES_ME), "them": ("those", _GIVES_THEM)}
 _THIRD = {"want": "wants", "need": "needs", "require": "requires", "ask": "asks"}
