@@ -86,7 +86,7 @@ class Ends:
     ) -> tuple[queue.Queue[str], subprocess.Popen[str]]:
         """What a process says, line by line; it is ended with all others."""
         self._stack.callback(process.wait)
-        self._stack.callback(process.send_signal, signal.SIGINT)
+        self._stack.callback(process.send_signal, signal.SIGTERM)
         lines = queue.Queue[str]()
 
         def read() -> None:
