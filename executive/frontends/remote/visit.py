@@ -86,7 +86,7 @@ class Visit:
         self._hearing: asyncio.Task[None] | None = None
         self._heeding: asyncio.Task[None] | None = None
         self._pressing: set[asyncio.Task[None]] = set()
-        self._beats = self._bye = self._is_gone = self._is_ended = False
+        self._beats = self._bye = self._is_gone = False
         self._second_s = self.heard_s
         self._lines = 0
 
@@ -97,7 +97,6 @@ class Visit:
 
     def end(self) -> None:
         """Let it go."""
-        self._is_ended = True
         if self._heeding is not None:
             self._heeding.cancel()
 

@@ -331,7 +331,9 @@ class ContactFilter:
         tilted = 1.0 + (ux * ux + uy * uy) / (2.0 * k.flat_rad) ** 2  # on an edge it tells less
         raised = 1.0 + (height / (2.0 * k.height_m)) ** 2
         higher = abs(height) - abs(float(self.feet[1 - side][2])) - k.step_m
-        if higher > 0.0:  # on a sill, not on the floor
+        if (
+            higher > 0.0
+        ):  # on a sill, not on the floor: as Geman and McClure weigh outliers, of 2 mm
             raised *= (1.0 + (higher / (0.4 * k.height_m)) ** 2) ** 2
         self._noise[row] = self._noise[row + 1] = tilted * repeats * k.flat_rad**2
         self._noise[row + 2] = raised * tilted * repeats * k.height_m**2

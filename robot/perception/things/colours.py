@@ -57,10 +57,7 @@ def words(
         pixels: which show the thing, at least one.
         gain: of red, green and blue, as `white_balance` has it; none: the colours as they are.
     """
-    rgb = colours[pixels].astype(np.float32) / np.float32(255.0)
-    if gain is not None:
-        rgb = np.minimum(rgb * gain, np.float32(1.0))
-    high, low = rgb.max(axis=1), rgb.min(axis=1)
+    rgb, high, low = _balanced(colours, pixels, gain)
     saturation = (high - low) / np.maximum(high, 1e-3)
     found = np.array(WORDS.index("gray")) * np.ones(len(rgb), dtype=np.intp)
     found[high < BLACK] = WORDS.index("black")
@@ -92,16 +89,23 @@ def warmth(
         pixels: which show the thing, at least one.
         gain: of red, green and blue, as `white_balance` has it; none: the colours as they are.
     """
-    rgb = colours[pixels].astype(np.float32) / np.float32(255.0)
-    if gain is not None:
-        rgb = np.minimum(rgb * gain, np.float32(1.0))
-    high, low = rgb.max(axis=1), rgb.min(axis=1)
+    rgb, high, low = _balanced(colours, pixels, gain)
     saturation = (high - low) / np.maximum(high, 1e-3)
     plain = (saturation < GREY) & (high > BLACK)
     if np.count_nonzero(plain) < LEAST_PLAIN:
         return 0.0
     turn = np.radians(_hues(rgb[plain], high[plain], low[plain]) - WARM_DEG)
     return float(np.median(saturation[plain] * np.cos(turn)))
+
+
+def _balanced(
+    colours: NDArray[np.uint8], pixels: NDArray[np.bool_], gain: Gain | None
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
+    """Red, green and blue of each pixel, shape (n, 3), the most and the least of them; 0 to 1."""
+    rgb = colours[pixels].astype(np.float32) / np.float32(255.0)
+    if gain is not None:
+        rgb = np.minimum(rgb * gain, np.float32(1.0))
+    return rgb, rgb.max(axis=1), rgb.min(axis=1)
 
 
 def _hues(
