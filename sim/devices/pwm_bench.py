@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, Self, cast, get_args
 
 from robot.clock import SimulatedClock
-from robot.closing import Closing
-from robot.drivers.motors.pwm.chips import Health, writers_of
+from robot.drivers.motors.pwm.chips import Chips, Health, writers_of
 from robot.drivers.motors.pwm.driver import outputs
 from robot.drivers.motors.pwm.joint_map import JointPulse, PulseMap
 from robot.errors import ConfigError, DriverError
@@ -117,7 +116,7 @@ def build(
     return made
 
 
-class DirectChips(Closing):
+class DirectChips(Chips):
     """A driver's chips straight on emulated buses, in simulated time: no thread, no process."""
 
     def __init__(self, wanted: PulseMap, bench: PwmBench, clock: SimulatedClock) -> None:

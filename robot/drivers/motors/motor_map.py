@@ -64,7 +64,7 @@ class MotorMap(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     @property
     def linked(self) -> Mapping[str, str]:
         """The linkage of each joint that is in one."""
-        return {}
+        return {one: name for name, found in linkages_of(self).items() for one in found.joints}
 
     def load(self, line: str) -> float:
         """The share of its time that a bus or port is busy."""
@@ -80,10 +80,10 @@ class LinkedMap(MotorMap, frozen=True, kw_only=True, forbid_unknown_fields=True)
 
     linkages: dict[str, Linkage] = msgspec.field(default_factory=dict[str, Linkage])
 
-    @property
-    def linked(self) -> Mapping[str, str]:
-        """The linkage of each joint that is in one."""
-        return {one: name for name, found in self.linkages.items() for one in found.joints}
+
+def linkages_of(found: MotorMap) -> Mapping[str, Linkage]:
+    """Joints that their motors move together, by name."""
+    return found.linkages if isinstance(found, LinkedMap) else {}
 
 
 M = TypeVar("M", bound=MotorMap)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -17,17 +17,9 @@ import numpy.typing as npt
 from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.gearing import Gearing
 from robot.drivers.motors.linkage import Linkage, Solved, solved
-from robot.drivers.motors.mounting import Misplaced, Mounted, MountedJoints, misplaced
+from robot.drivers.motors.motor_map import MotorMap, linkages_of
+from robot.drivers.motors.mounting import Misplaced, Mounted, misplaced
 from robot.se3 import Array
-
-
-class LinkedJoints(MountedJoints, Protocol):
-    """A joint map that has linkages."""
-
-    @property
-    def linkages(self) -> Mapping[str, Linkage]:
-        """By name."""
-        ...
 
 
 class Motion(NamedTuple):
@@ -74,7 +66,7 @@ class Transmission:
         most_nm: that each motor gives at its joint or crank, shape (n,).
     """
 
-    def __init__(self, joints: LinkedJoints) -> None:
+    def __init__(self, joints: MotorMap) -> None:
         """Of a map's joints, in its order; linkages of which a joint is not in it are left out."""
         self.gearing = Gearing(joints)
         count = len(joints.joints)
@@ -85,7 +77,7 @@ class Transmission:
         order = {name: index for index, name in enumerate(joints.joints)}
         middle = np.array([0.5 * (one.lower_rad + one.upper_rad) for one in motors])
         self._linked: list[_Linked] = []
-        for name, linkage in joints.linkages.items():
+        for name, linkage in linkages_of(joints).items():
             if all(one in order for one in linkage.joints):
                 places = np.array([order[one] for one in linkage.joints], np.intp)
                 self._linked.append(_Linked(name, linkage, places, middle[places]))
@@ -174,7 +166,7 @@ class Transmission:
         tau[at] = share * wanted - alone
 
 
-def joints_of(joints: LinkedJoints, told: Mapping[str, Motion | None]) -> dict[str, Motion]:
+def joints_of(joints: MotorMap, told: Mapping[str, Motion | None]) -> dict[str, Motion]:
     """Every joint of a map by what its motors say, asked once.
 
     Args:
@@ -190,17 +182,17 @@ def joints_of(joints: LinkedJoints, told: Mapping[str, Motion | None]) -> dict[s
     rows = np.array(transmission.at_joints(q, qd, tau))
     for linkage, unsolved in transmission.unsolved:
         if unsolved:
-            names = joints.linkages[linkage].joints
+            names = linkages_of(joints)[linkage].joints
             rows[:, [name in names for name in joints.joints]] = math.nan
     return {name: Motion(*row) for name, row in zip(joints.joints, rows.T.tolist(), strict=True)}
 
 
-def placed(joints: LinkedJoints, told: Mapping[str, Motion | None]) -> dict[str, float | None]:
+def placed(joints: MotorMap, told: Mapping[str, Motion | None]) -> dict[str, float | None]:
     """Where joints stand, as `joints_of`; None where nobody can tell without all of a linkage."""
     angles: dict[str, float | None] = {
         name: one.q_rad for name, one in joints_of(joints, told).items()
     }
-    for linkage in joints.linkages.values():
+    for linkage in linkages_of(joints).values():
         if any(name in told and told[name] is None for name in linkage.joints):
             angles |= dict.fromkeys(linkage.joints, None)
     return angles

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator
+from typing import ClassVar, Generic, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from robot.drivers.motors.alarms import Alarm, Alarms, Kind, Level
+from robot.drivers.motors.heard import Heard
 from robot.drivers.motors.jumps import JUMPS_BELIEVED
 from robot.drivers.motors.limiter import LEAST_SHARE, WARM_K
+from robot.drivers.motors.motor_map import MotorMap
 from robot.drivers.motors.mounting import MountedJoints
 from robot.drivers.motors.speed_check import WINDOW_S, SpeedCheck
 from robot.se3 import Array
@@ -190,3 +194,69 @@ class JointAlarms:
             if alarm.who == name and alarm.code not in sounding:
                 self._alarms.quiet(alarm.code, name)
         (self._troubled.add if alarms else self._troubled.discard)(name)
+
+
+M = TypeVar("M", bound=MotorMap)
+H = TypeVar("H", bound=Heard)
+
+
+class Watch(ABC, Generic[M, H]):
+    """Looks at what the motors of a map tell, period by period, and sounds alarms.
+
+    A family says what is wrong with one of its motors, and what is with its lines.
+
+    Attributes:
+        unplugged_cure: what a person does about a line that went away.
+        joints: what every family looks at.
+    """
+
+    unplugged_cure: ClassVar[str] = ""
+
+    def __init__(self, joints: M, alarms: Alarms) -> None:
+        """Sounds these alarms."""
+        self._alarms, self._map = alarms, joints
+        self.joints = JointAlarms(joints, alarms)
+
+    def forget(self) -> None:
+        """Begin to look anew."""
+        self.joints.forget()
+
+    def unplugged(self, line: str, why: str) -> None:
+        """A line went away."""
+        self._alarms.sound(UNPLUGGED.alarm(line, why, self.unplugged_cure))
+
+    def look(self, now_s: float, heard: H, q: Array, qd: Array, *, is_armed: bool) -> None:
+        """A period ended.
+
+        Args:
+            now_s: when.
+            heard: what motors told.
+            q: angles of the joints, shape (n,).
+            qd: their speeds, shape (n,).
+            is_armed: whether the motors were enabled from here.
+        """
+        self._feel(now_s, heard, q, qd)
+        if self.joints.are_due(
+            misses=heard.misses,
+            jumps=heard.jumps,
+            temperature_c=heard.temperature_c,
+            is_odd=self._is_odd(heard),
+        ):
+            for index in range(len(self.joints.names)):
+                self.joints.sound(index, self._of_one(index, heard, is_armed=is_armed))
+        self._of_lines(now_s, heard, is_armed=is_armed)
+
+    def _feel(self, now_s: float, heard: H, q: Array, qd: Array) -> None:
+        self.joints.feel(now_s, q, qd, heard.misses, heard.heard_s)
+
+    @abstractmethod
+    def _is_odd(self, heard: H) -> bool:
+        """Whether something is that this family alone has, so that all have to be looked at."""
+
+    @abstractmethod
+    def _of_one(self, index: int, heard: H, *, is_armed: bool) -> list[Alarm]:
+        """All that is wrong with a joint's motor now."""
+
+    @abstractmethod
+    def _of_lines(self, now_s: float, heard: H, *, is_armed: bool) -> None:
+        """Sound what is wrong with lines."""

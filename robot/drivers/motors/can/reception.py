@@ -25,41 +25,32 @@ from robot.drivers.motors.can.packed import (
 )
 from robot.drivers.motors.can.replies import is_about_register, may_be_about_register
 from robot.drivers.motors.can.values import DISABLED, NOBODY, Feedback, Ranges
-from robot.drivers.motors.jumps import Jumps
-from robot.drivers.motors.transmission import Transmission
-from robot.se3 import Array
+from robot.drivers.motors.heard import Heard
 
 MOST_OWED = 10
 """Replies that a motor may still give to what it was told before, one a period."""
 
 
-class Reception:
-    """The newest feedback of all motors of a map, at their shafts; arrays of shape (n,).
+class Reception(Heard):
+    """What motors on CAN told, beside what all tell (`Heard`); arrays of shape (n,).
 
     Attributes:
-        q, qd, tau, temperature_c: as told, a lost reply bridged for one period.
-        heard_s: when each told it.
-        misses: periods in a row without a reply.
         doubles: periods in a row with more replies than were still owed: late ones are.
         status: status codes.
-        lost, ignored: replies that did not come; frames that were nobody's, or no feedback.
+        ignored: frames that were nobody's, or no feedback.
         most_replies: that any motor gave in the last period.
     """
 
     def __init__(self, joints: JointMap, ranges: list[Ranges], coding: Coding) -> None:
         """Nothing was heard yet."""
+        super().__init__(joints, np.array([one.velocity_rad_s for one in ranges]))
         count = len(joints.joints)
-        self._motion: Array = np.zeros((3, count))
-        self.q, self.qd, self.tau = self._motion
-        self.temperature_c: Array = np.full(count, np.nan)
-        self.heard_s: Array = np.full(count, -np.inf)
-        self.misses: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self.status: npt.NDArray[np.intp] = np.full(count, DISABLED, np.intp)
         self.doubles: npt.NDArray[np.intp] = np.zeros(count, np.intp)
-        self.lost = self.ignored = self.most_replies = 0
+        self.ignored = self.most_replies = 0
         self._owed: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self._replies: npt.NDArray[np.intp] = np.zeros(count, np.intp)
-        self._coding, self._period_s = coding, joints.period_s
+        self._coding = coding
         self._motors = list(joints.joints.values())
         self._sizes = {bus: size_on(is_fd=one.is_fd) for bus, one in joints.buses.items()}
         self._first_key = {bus: number * SHORT_IDS for number, bus in enumerate(joints.buses)}
@@ -74,17 +65,6 @@ class Reception:
             self._by_key[number + self._first_key[one.bus] + one.answers_as] = index
             for short in one.family.short_replies(one.id):
                 self._by_key[self._first_key[one.bus] + short] = index
-        self._jumps = Jumps(np.array([one.velocity_rad_s for one in ranges]))
-
-    @property
-    def jumps(self) -> npt.NDArray[np.intp]:
-        """Replies in a row that were too far from the one before."""
-        return self._jumps.count
-
-    def forget_where(self) -> None:
-        """Believe whatever position comes next: a motor's zero was moved."""
-        self.heard_s[:] = -np.inf
-        self.misses[:] = 0
 
     def found(self, told: Sequence[Feedback], now_s: float) -> None:
         """What every motor told as it was enabled, outside of a period: it is there."""
@@ -160,8 +140,7 @@ class Reception:
     def _believe(self, which: npt.NDArray[np.intp], frames: Records, now_s: float) -> None:
         """Take what different motors said, but for positions that nobody can have come to."""
         motion, status, winding_c = self._coding.feedback(frames, which)
-        since_s = now_s - self.heard_s[which]
-        calm = self._jumps.calm(which, motion[0] - self.q[which], since_s)
+        calm = self._calm(which, motion[0], now_s)
         if calm is not None:
             which, motion, status = which[calm], motion[:, calm], status[calm]
             winding_c = winding_c[calm]
@@ -180,13 +159,8 @@ class Reception:
             silent = replies == 0
             self.misses = np.where(silent, self.misses + 1, 0)
             self.lost += int(np.count_nonzero(silent))
-            bridged = (self.misses == 1) & np.isfinite(self.heard_s)
-            self.q += np.where(bridged, self.qd * self._period_s, 0.0)
+            self._bridge(self.misses == 1)
             owed = np.minimum(self._owed + 1, MOST_OWED)
             self.doubles = np.where(replies > owed, self.doubles + 1, 0)
             self._owed = np.maximum(owed - replies, 0)
         self._replies = np.zeros_like(replies)
-
-    def at_joints(self, transmission: Transmission) -> tuple[Array, Array, Array]:
-        """Angles, speeds and torques of the joints; arrays of their own."""
-        return transmission.at_joints(self.q, self.qd, self.tau)

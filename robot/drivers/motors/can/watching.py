@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from robot.drivers.motors import watching
 from robot.drivers.motors.alarms import BY_STATUS, Alarm, Alarms, Kind, Level
 from robot.drivers.motors.can.joint_map import JointMap, JointMotor
 from robot.drivers.motors.can.reception import Reception
 from robot.drivers.motors.can.sending import TransmitQueue
 from robot.drivers.motors.can.values import DISABLED, ENABLED
-from robot.drivers.motors.watching import IMPOSSIBLE, UNPLUGGED, JointAlarms
-from robot.se3 import Array
+from robot.drivers.motors.watching import IMPOSSIBLE
 
 FULL_S = 0.010
 DOUBLE_PERIODS = 3
@@ -47,64 +47,25 @@ KINDS = (STRAINED, FAULT, BUS_OFF, TWIN, IMPOSSIBLE, QUEUE_FULL)
 """What only motors on CAN have."""
 
 
-class Watch:
-    """Of all motors of a map.
+class Watch(watching.Watch[JointMap, Reception]):
+    """Of all motors of a map, and their buses."""
 
-    Attributes:
-        joints: what every family looks at.
-    """
+    unplugged_cure = "plug it in, see that it is up (ip link show), and start again"
 
-    def __init__(self, joints: JointMap, alarms: Alarms) -> None:
-        """Sounds these alarms."""
-        self._alarms = alarms
-        self._motors = list(joints.joints.values())
-        self.joints = JointAlarms(joints, alarms)
-
-    def forget(self) -> None:
-        """Begin to look anew."""
-        self.joints.forget()
+    def __init__(
+        self, joints: JointMap, alarms: Alarms, queues: Mapping[str, TransmitQueue]
+    ) -> None:
+        """Sounds these alarms; `queues`: of the buses."""
+        super().__init__(joints, alarms)
+        self._motors, self._queues = list(joints.joints.values()), queues
 
     def bus_off(self, bus: str) -> None:
         """A controller took itself off its bus."""
         cure = "look for a loose or swapped wire; ip link set CHANNEL type can restart-ms 100"
         self._alarms.sound(BUS_OFF.alarm(bus, "the bus is off", cure))
 
-    def unplugged(self, bus: str, why: str) -> None:
-        """The interface of a bus went away."""
-        cure = "plug it in, see that it is up (ip link show), and start again"
-        self._alarms.sound(UNPLUGGED.alarm(bus, why, cure))
-
-    def look(
-        self,
-        now_s: float,
-        heard: Reception,
-        q: Array,
-        qd: Array,
-        queues: Mapping[str, TransmitQueue],
-        *,
-        is_armed: bool,
-    ) -> None:
-        """A period ended.
-
-        Args:
-            now_s: when.
-            heard: what motors told.
-            q: angles of the joints, shape (n,).
-            qd: their speeds, shape (n,).
-            queues: of the buses.
-            is_armed: whether the motors were enabled from here.
-        """
-        self.joints.feel(now_s, q, qd, heard.misses, heard.heard_s)
-        if self.joints.are_due(
-            misses=heard.misses,
-            jumps=heard.jumps,
-            temperature_c=heard.temperature_c,
-            is_odd=bool(heard.doubles.any()) or bool((heard.status != ENABLED).any()),
-        ):
-            for index in range(len(self._motors)):
-                self.joints.sound(index, self._of_one(index, heard, is_armed=is_armed))
-        for queue in queues.values():
-            self._queue(queue, now_s)
+    def _is_odd(self, heard: Reception) -> bool:
+        return bool(heard.doubles.any()) or bool((heard.status != ENABLED).any())
 
     def _of_one(self, index: int, heard: Reception, *, is_armed: bool) -> list[Alarm]:
         one, name, looks = self._motors[index], self.joints.names[index], self.joints
@@ -131,6 +92,10 @@ class Watch:
         cure = status.cure or "somebody else disabled it"
         text = f"reports {status.code.replace('_', ' ')}"
         return [kind.alarm(name, text, cure, code=status.code)]
+
+    def _of_lines(self, now_s: float, heard: Reception, *, is_armed: bool) -> None:  # noqa: ARG002
+        for queue in self._queues.values():
+            self._queue(queue, now_s)
 
     def _queue(self, queue: TransmitQueue, now_s: float) -> None:
         if queue.full_since_s is not None and now_s - queue.full_since_s >= FULL_S:

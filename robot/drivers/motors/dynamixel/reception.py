@@ -13,56 +13,40 @@ from robot.drivers.motors.dynamixel.interview import MIDDLE
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
 from robot.drivers.motors.dynamixel.models import RAD_A_PULSE, RAD_S_A_STEP
 from robot.drivers.motors.dynamixel.packets import Status
-from robot.drivers.motors.gearing import Gearing
-from robot.drivers.motors.jumps import Jumps
+from robot.drivers.motors.heard import Heard
 from robot.se3 import Array
 
 _SHORT = np.dtype([("current", "<i2"), ("velocity", "<i4"), ("position", "<i4")])
 _LONG = np.dtype([*_SHORT.descr, ("trajectories", "V8"), ("decivolts", "<u2"), ("celsius", "u1")])
 
 
-class Reception:
-    """The newest answers of all servos of a map, at their shafts; arrays of shape (n,).
+class Reception(Heard):
+    """What servos told, beside what all motors tell (`Heard`); arrays of shape (n,).
+
+    A miss is a period in which a servo was asked and did not answer.
 
     Attributes:
-        q, qd, tau, temperature_c, volts: as told, a lost answer bridged for one period.
-        heard_s: when each told it.
-        misses: periods in a row in which it was asked and did not answer.
+        volts: as told.
         alerts: whether it has a hardware error to tell.
         errors: bits of its hardware error, as far as it was asked.
-        lost, ignored: answers that did not come; those that were nobody's, or nothing of ours.
+        ignored: answers that were nobody's, or nothing of ours.
     """
 
     def __init__(self, joints: ServoMap) -> None:
         """Nothing was heard yet."""
         count = len(joints.joints)
         servos = list(joints.joints.values())
-        self.q, self.qd, self.tau = (np.zeros(count) for _ in range(3))
-        self.temperature_c: Array = np.full(count, np.nan)
+        super().__init__(joints, np.array([one.sold.velocity_rad_s for one in servos]))
         self.volts: Array = np.full(count, np.nan)
-        self.heard_s: Array = np.full(count, -np.inf)
-        self.misses: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self.alerts: npt.NDArray[np.bool_] = np.zeros(count, np.bool_)
         self.errors: npt.NDArray[np.intp] = np.zeros(count, np.intp)
-        self.lost = self.ignored = 0
+        self.ignored = 0
         self._came: npt.NDArray[np.bool_] = np.zeros(count, np.bool_)
-        self._period_s = joints.period_s
         self._step_nm: Array = np.array([one.sold.nm_a_step for one in servos])
-        self._jumps = Jumps(np.array([one.sold.velocity_rad_s for one in servos]))
         self._index = {
             port: {one.id: index for index, one in enumerate(servos) if one.port == port}
             for port in joints.ports
         }
-
-    @property
-    def jumps(self) -> npt.NDArray[np.intp]:
-        """Replies in a row that were too far from the one before."""
-        return self._jumps.count
-
-    def forget_where(self) -> None:
-        """Believe whatever position comes next."""
-        self.heard_s[:] = -np.inf
-        self.misses[:] = 0
 
     def take(self, port: str, heard: Sequence[Status], now_s: float) -> None:
         """Answers of a port's servos."""
@@ -92,7 +76,7 @@ class Reception:
         told = np.frombuffer(b"".join(data for _, data in short), _SHORT)
         self._came[which] = True
         q = (told["position"] - MIDDLE) * RAD_A_PULSE
-        calm = self._jumps.calm(which, q - self.q[which], now_s - self.heard_s[which])
+        calm = self._calm(which, q, now_s)
         if calm is not None:
             which, told, q = which[calm], told[calm], q[calm]
         self.q[which], self.qd[which] = q, told["velocity"] * RAD_S_A_STEP
@@ -105,10 +89,5 @@ class Reception:
         if silent.any():
             self.lost += int(np.count_nonzero(silent))
         self.misses = np.where(silent, self.misses + 1, np.where(self._came, 0, self.misses))
-        bridged = ~self._came & (self.misses <= 1) & np.isfinite(self.heard_s)
-        self.q = self.q + np.where(bridged, self.qd * self._period_s, 0.0)
+        self._bridge(~self._came & (self.misses <= 1))
         self._came[:] = False
-
-    def at_joints(self, gearing: Gearing) -> tuple[Array, Array, Array]:
-        """Angles, speeds and torques of the joints; arrays of their own."""
-        return gearing.joint_q(self.q), gearing.joint_qd(self.qd), gearing.joint_tau(self.tau)

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from robot.drivers.motors import watching
 from robot.drivers.motors.alarms import Alarm, Alarms, Kind, Level
 from robot.drivers.motors.dynamixel.control_table import hardware_errors
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
 from robot.drivers.motors.dynamixel.packets import Receiver
 from robot.drivers.motors.dynamixel.reception import Reception
-from robot.drivers.motors.watching import UNPLUGGED, JointAlarms
 from robot.se3 import Array
 
 NOISY_S, NOISY_ERRORS = 1.0, 5
@@ -42,28 +42,17 @@ KINDS = (ALERT, ERROR, EXPIRED, NOISY)
 """What only servos have."""
 
 
-class Watch:
-    """Of all servos of a map.
+class Watch(watching.Watch[ServoMap, Reception]):
+    """Of all servos of a map, and their ports."""
 
-    Attributes:
-        joints: what every family looks at.
-    """
+    unplugged_cure = "plug it in, and start again"
 
-    def __init__(self, joints: ServoMap, alarms: Alarms) -> None:
-        """Sounds these alarms."""
-        self._alarms = alarms
-        self._servos = list(joints.joints.values())
-        self.joints = JointAlarms(joints, alarms)
+    def __init__(self, joints: ServoMap, alarms: Alarms, receivers: Mapping[str, Receiver]) -> None:
+        """Sounds these alarms; `receivers`: of the ports, which count what was spoilt."""
+        super().__init__(joints, alarms)
+        self._servos, self._receivers = list(joints.joints.values()), receivers
         self._errors: dict[str, int] = {}
         self._noisy_s = -np.inf
-
-    def forget(self) -> None:
-        """Begin to look anew."""
-        self.joints.forget()
-
-    def unplugged(self, port: str, why: str) -> None:
-        """A port went away."""
-        self._alarms.sound(UNPLUGGED.alarm(port, why, "plug it in, and start again"))
 
     def expired(self, since_s: float) -> None:
         """Servos had no word for longer than their watchdogs: they take no goals any more."""
@@ -71,35 +60,20 @@ class Watch:
         cure = "why was the computer busy? start again"
         self._alarms.sound(EXPIRED.alarm("servos", text, cure))
 
-    def look(
-        self, now_s: float, heard: Reception, q: Array, qd: Array, *,
-        receivers: Mapping[str, Receiver],
-    ) -> None:  # fmt: skip
-        """A period ended.
-
-        Args:
-            now_s: when.
-            heard: what servos told.
-            q: angles of the joints, shape (n,).
-            qd: their speeds, shape (n,).
-            receivers: of the ports, which count what was spoilt.
-        """
+    def _feel(self, now_s: float, heard: Reception, q: Array, qd: Array) -> None:
         if not heard.misses.any() and np.isfinite(heard.heard_s).all():  # nothing is bridged
-            self.joints.feel(now_s, q, qd, heard.misses, heard.heard_s)
-        if self.joints.are_due(
-            misses=heard.misses,
-            jumps=heard.jumps,
-            temperature_c=heard.temperature_c,
-            is_odd=bool(heard.alerts.any()),
-        ):
-            for index in range(len(self._servos)):
-                self.joints.sound(index, self._of_one(index, heard))
+            super()._feel(now_s, heard, q, qd)
+
+    def _is_odd(self, heard: Reception) -> bool:
+        return bool(heard.alerts.any())
+
+    def _of_lines(self, now_s: float, heard: Reception, *, is_armed: bool) -> None:  # noqa: ARG002
         if now_s - self._noisy_s >= NOISY_S:
             self._noisy_s = now_s
-            for port, receiver in receivers.items():
+            for port, receiver in self._receivers.items():
                 self._noise(port, receiver.crc_errors + receiver.broken)
 
-    def _of_one(self, index: int, heard: Reception) -> list[Alarm]:
+    def _of_one(self, index: int, heard: Reception, *, is_armed: bool) -> list[Alarm]:  # noqa: ARG002
         one, name, looks = self._servos[index], self.joints.names[index], self.joints
         servo, cure = f"servo {one.id} on {one.port}", "check its power, its cable, and the port"
         belt = "compare its gear with the map; is its belt slack?"

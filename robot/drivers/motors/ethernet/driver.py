@@ -7,15 +7,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from typing import Self
 
 import numpy as np
 
 from robot.clock import Clock
-from robot.closing import Closing
-from robot.drivers.motor_bus import MIT_MODE, MotorBus, MotorCommand, MotorState
-from robot.drivers.motors.alarms import Alarms, News, untold
-from robot.drivers.motors.claim import Claim
+from robot.drivers.motor_bus import MotorBus, MotorCommand
+from robot.drivers.motors.alarms import untold
 from robot.drivers.motors.ethernet import arming, joint_map, watching
 from robot.drivers.motors.ethernet.datagrams import FLAGS_EXPIRED, ORDER, Kind, Reason, State
 from robot.drivers.motors.ethernet.emulated import EmulatedBoards, boards_in
@@ -31,14 +28,9 @@ from robot.drivers.motors.ethernet.ports import Ports, UdpPorts, check_boards
 from robot.drivers.motors.ethernet.reception import FASTEST_RAD_S, Reception
 from robot.drivers.motors.ethernet.talking import Question, Talk
 from robot.drivers.motors.findings import refuse_grave
-from robot.drivers.motors.holding import Holding
-from robot.drivers.motors.life import Life, not_let_go, unheard
-from robot.drivers.motors.limiter import Limiter, Measured
-from robot.drivers.motors.periods import Periods
+from robot.drivers.motors.line_motors import LineMotors
 from robot.drivers.motors.plant_behind import PlantClock
-from robot.drivers.motors.speed_check import SpeedCheck
-from robot.drivers.motors.transmission import AtMotors, Transmission
-from robot.drivers.motors.watching import SILENT_PERIODS
+from robot.drivers.motors.transmission import AtMotors
 from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.se3 import Array
@@ -70,16 +62,14 @@ def wired(joints: DriveMap, wiring: Wiring) -> EthernetMotors:
     return EthernetMotors(there, time, ports=lambda: EmulatedBoards(there, plant), tell=print)
 
 
-class EthernetMotors(Closing):
-    """All motors of a map of boards.
+class EthernetMotors(LineMotors[DriveMap, Ports, Reception, watching.Watch]):
+    """All motors of a map of boards (`LineMotors`).
 
     Attributes:
-        joints: the map, in the order of every array.
-        alarms: what is wrong now.
         unsent: datagrams that the system did not take; none of them was kept.
     """
 
-    capabilities = MIT_MODE
+    title, scheme = "Ethernet", "udp"
 
     def __init__(
         self,
@@ -88,27 +78,12 @@ class EthernetMotors(Closing):
         *,
         ports: Callable[[], Ports],
         tell: Callable[[str], None] = untold,
+        waits: bool = True,
         lets_go: bool = False,
     ) -> None:
-        """Know the motors; nothing is opened.
-
-        Args:
-            joints: the map.
-            clock: of its periods.
-            ports: opens the ways to its boards.
-            tell: hears a line of every alarm, and at the end how well answers came.
-            lets_go: whether joints are disabled at the end, and so give no torque, in place of
-                braking on: for one joint on a bench, not for a robot on its feet.
-        """
-        self.joints = joints
-        self.alarms = Alarms()
+        """Know the motors; nothing is opened."""
+        super().__init__(joints, clock, ports=ports, tell=tell, waits=waits, lets_go=lets_go)
         self.unsent = 0
-        self._tell, self._news = tell, News(self.alarms, tell)
-        self._lets_go = lets_go
-        self._clock, self._periods = clock, Periods(clock, joints.period_s)
-        self._transmission, self.limiter = Transmission(joints), Limiter(joints)
-        self._claim = Claim(f"udp:{at}" for at in joints.channels.values())
-        self._life = Life(ports, self._claim)
         self._talk: Talk | None = None
         order = {name: index for index, name in enumerate(joints.joints)}
         self._places = {
@@ -116,37 +91,16 @@ class EthernetMotors(Closing):
             for board in joints.boards
         }
         self._masks = arming.masks(joints)
-        self._is_armed = self._has_asked = False
+        self._has_asked = False
         self._full_since_s: dict[str, float] = {}
-        self._sent: MotorCommand | None = None
-        self._holding = Holding()
-        self._commanded = self._lost_before = 0
         self._refused_before = Counter[Reason]()
 
-    def __enter__(self) -> Self:
-        """Open the ways to all boards, and ask every one who it is; nothing is enabled.
+    # --- its life --------------------------------------------------------------------------------
 
-        That disturbs no program that commands them.
-
-        Raises:
-            DriverError: if there is no way to a board, or one is not what the map says: with
-                everything that disagrees.
-        """
+    def _meet(self, lines: Ports, *, is_free: bool) -> None:  # noqa: ARG002
+        """That disturbs no program that commands them."""
         self._has_asked = False
-        if not self._life.open(self._first_asked):
-            try:
-                self._first_asked(self._life.lines)
-            except DriverError:
-                self._life.close(lambda _: None, lambda: None)
-                raise
-        self._watch = watching.Watch(self.joints, self.alarms)
-        self._periods.begin()
-        for _ in range(SILENT_PERIODS):
-            self.read()
-        return self
-
-    def _first_asked(self, ports: Ports) -> None:
-        self._talk = talk = Talk(ports, self._clock, self.joints)
+        self._talk = talk = Talk(lines, self._clock, self.joints)
         answers = interview(talk)
         refuse_grave(verdicts(self.joints, answers), "motors")
         fastest_rad_s = self._learn(answers)
@@ -164,177 +118,80 @@ class EthernetMotors(Closing):
         )
         return np.array([FASTEST_RAD_S if one is None else one.velocity_rad_s for one in sold])
 
-    def close(self) -> None:
-        """Leave the joints braking, if they are commanded from here, and close.
+    def _watches(self, lines: Ports) -> watching.Watch:
+        return watching.Watch(self.joints, self.alarms, lines)
 
-        Raises:
-            DriverError: if they were to be disabled, and one was not seen to be.
-        """
-        self._life.close(self._leave, self._left)
+    def _damp(self, lines: Ports) -> None:  # noqa: ARG002
+        arming.leave_braking(self._opened_talk())
 
-    def _leave(self, _ports: Ports) -> None:
-        """Braking, or disabled. Raises DriverError if one was not seen to be disabled."""
-        if not self._is_armed:
-            return
-        if not self._lets_go:
-            arming.leave_braking(self._opened_talk())
-        elif on := arming.disable(self._opened_talk()):
-            raise not_let_go(on)
+    def _let_go(self, lines: Ports) -> list[str]:  # noqa: ARG002
+        return arming.disable(self._opened_talk())
 
-    def _left(self) -> None:
-        self._is_armed = False
-        if self._commanded:
-            self._tell(self._summary())
+    @property
+    def _where(self) -> str:
+        return f"{super()._where} on {len(self.joints.boards)} boards"
 
-    def _summary(self) -> str:
-        """How well answers came since the joints were enabled."""
-        joints, lost = len(self.joints.joints), self.reception.lost - self._lost_before
+    @property
+    def _more(self) -> str:
         refused = self.reception.refused - self._refused_before
         why = ", ".join(f"{count} {reason}" for reason, count in refused.most_common())
         return (
-            f"Ethernet: {joints} joints on {len(self.joints.boards)} boards, {self._commanded} "
-            f"periods at {self.joints.rate_hz} Hz, {lost} replies late "
-            f"({lost / (self._commanded * joints):.3%}), {refused.total()} datagrams refused"
-            f"{f' ({why})' if why else ''}, {self.unsent} not sent, {self.late} periods late"
+            f"{refused.total()} datagrams refused{f' ({why})' if why else ''}, "
+            f"{self.unsent} not sent, "
         )
 
-    def claim(self) -> bool:
-        """Become the one that commands these boards; False while another one does."""
-        return self._life.claim(self._begin)
-
-    def _begin(self, ports: Ports) -> None:
-        ports.receive()  # what nobody read meanwhile is of the past
+    def _drop(self, lines: Ports) -> None:
+        lines.receive()
         self._has_asked = False
-        self._periods.begin()
-        self.reception.forget_where()
-
-    @property
-    def late(self) -> int:
-        """Periods that began late by more than one."""
-        return self._periods.late
-
-    @property
-    def speeds(self) -> SpeedCheck:
-        """How reported speeds compare with reported positions."""
-        return self._watch.joints.speeds
 
     def status_of(self, index: int) -> str:
         """What a joint's drive says of itself, in one word."""
         faults = faults_of(int(self.reception.faults[index]))
         return status(int(self.reception.state[index]), faults)
 
-    def reset(self) -> None:
-        """Forget every alarm, also latched ones; the next command arms the joints anew.
+    # --- read ------------------------------------------------------------------------------------
 
-        What is still wrong sounds again.
-        """
-        self.alarms.reset()
-        self._watch.forget()
-        self._is_armed, self._sent = False, None
-        self._holding.forget()
-        self.limiter.forget()
-
-    # --- read ----------------------------------------------------------------------------------
-
-    def read(self) -> MotorState:
-        """The state at the end of this period. Raises DriverError if no board can be reached."""
-        ports = self._life.lines
+    def _before(self, lines: Ports) -> None:
         if not self._has_asked:
-            self._send(Kind.STATE, dict.fromkeys(self.joints.boards, b""))
-        self._periods.wait(self._hear)
-        for board, why in ports.gone.items():
-            self._watch.unplugged(board, why)
-        self._has_asked = False
-        return self._state()
+            self._ask(lines, Kind.STATE, dict.fromkeys(self.joints.boards, b""))
 
     def _hear(self) -> None:
         if came := self._life.lines.receive():
             self.reception.take(came, self._clock.now_s())
 
-    def _state(self) -> MotorState:
-        now_s, heard = self._clock.now_s(), self.reception
-        heard.end_period()
-        self._at = q, qd, tau = heard.at_joints(self._transmission)
-        self._watch.joints.linkages(self._transmission.unsolved)
-        strangers = self._life.lines.strangers
-        self._watch.look(now_s, heard, q, qd, strangers=strangers, is_armed=self._is_armed)
-        self._commanded += self._is_armed
-        if self._is_armed:
-            self._news.say(now_s)
-        expired = any(board.flags & FLAGS_EXPIRED for board in heard.boards.values())
-        left_on = self._is_left_enabled and self._claim.is_held
-        return MotorState(
-            stamp_s=now_s,
-            q=q.copy(),
-            qd=qd.copy(),
-            tau=tau.copy(),
-            temperature_c=heard.temperature_c.copy(),
-            age_s=now_s - heard.heard_s,
-            watchdog=not (self._is_armed or left_on) or expired,
-            command_stamp_s=self._commanded_s(now_s, left_on=left_on),
-            alarms=self.alarms.messages() if self._is_armed else (),
-        )
+    def _end(self, lines: Ports) -> None:  # noqa: ARG002
+        self._has_asked = False
+        self.reception.end_period()
 
-    def _commanded_s(self, now_s: float, *, left_on: bool) -> float:
-        """Of the last command; that of another program is no older than the boards' watchdog."""
-        if self._sent is not None:
-            return self._sent.stamp_s
-        return now_s if left_on else -np.inf
+    @property
+    def _has_let_go(self) -> bool:
+        return any(board.flags & FLAGS_EXPIRED for board in self.reception.boards.values())
 
     @property
     def _is_left_enabled(self) -> bool:
-        """Whether a program that commanded until a moment ago left all joints enabled."""
         heard = self.reception
-        if self._is_armed or any(board.flags & FLAGS_EXPIRED for board in heard.boards.values()):
+        if self._is_armed or not self._claim.is_held or self._has_let_go:
             return False
         return bool((heard.state == State.ENABLED).all() and (heard.misses == 0).all())
 
-    # --- write ---------------------------------------------------------------------------------
+    # --- write -----------------------------------------------------------------------------------
 
-    def write(self, command: MotorCommand) -> MotorCommand:
-        """Send a command, limited; returns what the datagrams say.
-
-        While an alarm says HOLD, the last targets are sent in its place.
-
-        Raises:
-            DriverError: if a value is not finite or a shape is wrong (nothing is sent), another
-                driver commands, or a joint cannot be enabled.
-        """
-        self._life.check()
-        self.limiter.check(command)
-        if not self.claim():
-            raise DriverError("another controller commands the motors")
-        if not self._is_armed:
-            self._arm()
-        q, qd, _ = self._at
-        measured = Measured(q, qd, self.reception.temperature_c)
-        wanted = self._holding.decided(command, self.alarms.level, obeyed=self._sent, q=q)
-        self._sent = self._command(self.limiter.apply(wanted, measured))
-        return self._sent
-
-    def _arm(self) -> None:
-        """Enable all joints. Raises DriverError if one is not what the map says, or does not."""
+    def _enable(self, lines: Ports) -> bool:  # noqa: ARG002
         talk = self._opened_talk()
         was_left = self._is_left_enabled and not arming.take_over(talk)
-        if was_left:
-            self._tell("the motors were left enabled: they are commanded as they are")
-        else:
+        if not was_left:
             refuse_grave(verdicts(self.joints, interview(talk)), "motors")
             arming.arm(talk)
-        self._is_armed = True
         self.reception.state[:] = State.ENABLED
         for board in self.reception.boards.values():
             board.flags = 0
-        self._periods.begin()
-        if silent := unheard(self.joints.joints, self.read, lambda: self.reception.heard_s):
-            self._is_armed = False
-            if not was_left:  # else boards brake, as they do without a word
-                arming.disable(talk)
-            raise DriverError(f"nothing is commanded: no word of {', '.join(silent)}")
-        self._lost_before, self._commanded = self.reception.lost, 0
+        return was_left
+
+    def _count_anew(self) -> None:
+        super()._count_anew()
         self._refused_before = self.reception.refused
 
-    def _command(self, command: MotorCommand) -> MotorCommand:
+    def _send(self, lines: Ports, command: MotorCommand) -> MotorCommand:
         transmission, (q, qd, _) = self._transmission, self._at
         orders = np.empty(len(command.q_des), ORDER)
         for field, values in zip(
@@ -342,13 +199,13 @@ class EthernetMotors(Closing):
         ):
             orders[field] = values
         bodies = {board: orders[which].tobytes() for board, which in self._places.items()}
-        self._send(Kind.COMMAND, bodies)
+        self._ask(lines, Kind.COMMAND, bodies)
         told = AtMotors(*(orders[field].astype(float) for field in AtMotors._fields))
         return transmission.said(command, told, q, qd)
 
-    def _send(self, kind: Kind, bodies: dict[str, bytes]) -> None:
+    def _ask(self, ports: Ports, kind: Kind, bodies: dict[str, bytes]) -> None:
         """Ask all boards, one datagram each; what the system does not take is not kept."""
-        ports, talk = self._life.lines, self._opened_talk()
+        talk = self._opened_talk()
         sequence, time_us = talk.begin()
         self.reception.expect(kind, sequence)
         now_s = self._clock.now_s()

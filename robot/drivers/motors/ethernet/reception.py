@@ -22,8 +22,7 @@ from robot.drivers.motors.ethernet.datagrams import (
     is_before,
 )
 from robot.drivers.motors.ethernet.joint_map import DriveMap
-from robot.drivers.motors.jumps import Jumps
-from robot.drivers.motors.transmission import Transmission
+from robot.drivers.motors.heard import Heard
 from robot.se3 import Array
 
 FASTEST_RAD_S = 100.0
@@ -61,16 +60,12 @@ class FromBoard:
     refused: Counter[Reason] = field(default_factory=Counter[Reason])
 
 
-class Reception:
-    """The newest feedback of all joints of a map, at their motors; arrays of shape (n,).
+class Reception(Heard):
+    """What boards told, beside what all motors tell (`Heard`); arrays of shape (n,).
 
     Attributes:
-        q, qd, tau, temperature_c: as told, a lost answer bridged for one period.
-        heard_s: when each told it.
-        misses: periods in a row without an answer.
         state, faults: codes and bits of each drive.
         boards: what each told, by name.
-        lost: answers that did not come in their period, counted by joint.
     """
 
     def __init__(self, joints: DriveMap, session: int, fastest_rad_s: Array | None = None) -> None:
@@ -82,6 +77,8 @@ class Reception:
             fastest_rad_s: of each motor, as its board says; None: not asked.
         """
         count, ours = len(joints.joints), masks(joints)
+        unknown = np.full(count, FASTEST_RAD_S)
+        super().__init__(joints, unknown if fastest_rad_s is None else fastest_rad_s)
         order = {name: index for index, name in enumerate(joints.joints)}
         self.boards = {
             name: FromBoard(
@@ -89,33 +86,15 @@ class Reception:
             )
             for name, board in joints.boards.items()
         }
-        self.q, self.qd, self.tau = (np.zeros(count) for _ in range(3))
-        self.temperature_c: Array = np.full(count, np.nan)
-        self.heard_s: Array = np.full(count, -np.inf)
-        self.misses: npt.NDArray[np.intp] = np.zeros(count, np.intp)
         self.state: npt.NDArray[np.intp] = np.full(count, State.DISABLED, np.intp)
         self.faults: npt.NDArray[np.intp] = np.zeros(count, np.intp)
-        self.lost = 0
-        self._session, self._period_s = session, joints.period_s
+        self._session = session
         self._came: npt.NDArray[np.bool_] = np.zeros(count, np.bool_)
-        self._jumps = Jumps(
-            np.full(count, FASTEST_RAD_S) if fastest_rad_s is None else fastest_rad_s
-        )
-
-    @property
-    def jumps(self) -> npt.NDArray[np.intp]:
-        """Answers in a row that were too far from the one before."""
-        return self._jumps.count
 
     @property
     def refused(self) -> Counter[Reason]:
         """Datagrams of all boards, by reason."""
         return sum((board.refused for board in self.boards.values()), Counter[Reason]())
-
-    def forget_where(self) -> None:
-        """Believe whatever position comes next: a motor's zero was moved."""
-        self.heard_s[:] = -np.inf
-        self.misses[:] = 0
 
     def expect(self, kind: int, sequence: int) -> None:
         """All boards are asked this now: nothing else is an answer any more."""
@@ -183,7 +162,7 @@ class Reception:
             )
         self.state[which], self.faults[which] = told["state"], told["faults"]
         self._came[which] = True
-        calm = self._jumps.calm(which, q - self.q[which], now_s - self.heard_s[which])
+        calm = self._calm(which, q, now_s)
         if calm is not None:
             which, told, q, qd, tau = which[calm], told[calm], q[calm], qd[calm], tau[calm]
         self.q[which], self.qd[which], self.tau[which] = q, qd, tau
@@ -196,10 +175,5 @@ class Reception:
         if silent.any() or self.misses.any():
             self.misses = np.where(silent, self.misses + 1, 0)
             self.lost += int(np.count_nonzero(silent))
-            bridged = (self.misses == 1) & np.isfinite(self.heard_s)
-            self.q += np.where(bridged, self.qd * self._period_s, 0.0)
+            self._bridge(self.misses == 1)
         self._came[:] = False
-
-    def at_joints(self, transmission: Transmission) -> tuple[Array, Array, Array]:
-        """Angles, speeds and torques of the joints; arrays of their own."""
-        return transmission.at_joints(self.q, self.qd, self.tau)

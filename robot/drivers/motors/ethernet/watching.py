@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
 
 import numpy as np
 
+from robot.drivers.motors import watching
 from robot.drivers.motors.alarms import BY_STATUS, Alarm, Alarms, Kind, Level
 from robot.drivers.motors.ethernet.datagrams import FLAGS_EXPIRED, FLAGS_OTHERS, State
 from robot.drivers.motors.ethernet.interview import faults_of
 from robot.drivers.motors.ethernet.joint_map import DriveMap
+from robot.drivers.motors.ethernet.ports import Ports
 from robot.drivers.motors.ethernet.reception import FromBoard, Reception
-from robot.drivers.motors.watching import IMPOSSIBLE, UNPLUGGED, JointAlarms
-from robot.se3 import Array
+from robot.drivers.motors.watching import IMPOSSIBLE
 
 FULL_S = 0.010
 NOISY_S, NOISY_DATAGRAMS = 1.0, 5
@@ -70,31 +70,23 @@ KINDS = (STRAINED, FAULT, EXPIRED, RESTARTED, OTHERS, IMPOSSIBLE, FULL, NOISY)
 """What only motors behind Ethernet have."""
 
 
-class Watch:
-    """Of all joints of a map.
+class Watch(watching.Watch[DriveMap, Reception]):
+    """Of all joints of a map, and their boards."""
 
-    Attributes:
-        joints: what every family looks at.
-    """
+    unplugged_cure = "plug it in, see that the network is up (ip address show), and start again"
 
-    def __init__(self, joints: DriveMap, alarms: Alarms) -> None:
-        """Sounds these alarms."""
-        self._alarms, self._map = alarms, joints
-        self._motors = list(joints.joints.values())
-        self.joints = JointAlarms(joints, alarms)
+    def __init__(self, joints: DriveMap, alarms: Alarms, ports: Ports) -> None:
+        """Sounds these alarms; `ports`: know of datagrams that came from somewhere else."""
+        super().__init__(joints, alarms)
+        self._motors, self._ports = list(joints.joints.values()), ports
         self._refused: dict[str, Counter[str]] = {}
         self._restarts: dict[str, int] = {}
         self._noisy_s = -np.inf
 
     def forget(self) -> None:
         """Begin to look anew."""
-        self.joints.forget()
+        super().forget()
         self._restarts.clear()
-
-    def unplugged(self, board: str, why: str) -> None:
-        """There is no way to a board any more."""
-        cure = "plug it in, see that the network is up (ip address show), and start again"
-        self._alarms.sound(UNPLUGGED.alarm(board, why, cure))
 
     def full(self, board: str, for_s: float) -> None:
         """The system takes nothing for a board, for so long by now; 0: it does."""
@@ -105,31 +97,15 @@ class Watch:
         elif not for_s:
             self._alarms.quiet("queue_full", board)
 
-    def look(
-        self, now_s: float, heard: Reception, q: Array, qd: Array, *,
-        strangers: Mapping[str, int], is_armed: bool,
-    ) -> None:  # fmt: skip
-        """A period ended.
+    def _is_odd(self, heard: Reception) -> bool:
+        return bool(heard.faults.any()) or bool((heard.state != State.ENABLED).any())
 
-        Args:
-            now_s: when.
-            heard: what boards told.
-            q: angles of the joints, shape (n,).
-            qd: their speeds, shape (n,).
-            strangers: datagrams of each board's socket that came from somewhere else.
-            is_armed: whether the joints were enabled from here.
-        """
-        self.joints.feel(now_s, q, qd, heard.misses, heard.heard_s)
-        is_odd = bool(heard.faults.any()) or bool((heard.state != State.ENABLED).any())
-        if self.joints.are_due(
-            misses=heard.misses, jumps=heard.jumps, temperature_c=heard.temperature_c, is_odd=is_odd
-        ):
-            for index in range(len(self._motors)):
-                self.joints.sound(index, self._of_one(index, heard, is_armed=is_armed))
+    def _of_lines(self, now_s: float, heard: Reception, *, is_armed: bool) -> None:
         for name, board in heard.boards.items():
             self._board(name, board, is_armed=is_armed)
         if now_s - self._noisy_s >= NOISY_S:
             self._noisy_s = now_s
+            strangers = self._ports.strangers
             for name, board in heard.boards.items():
                 refused = Counter[str](board.refused)
                 refused["source"] = strangers.get(name, 0)

@@ -59,6 +59,11 @@ class Health(NamedTuple):
 class Chips(Closing, Protocol):
     """The chips, reached by entering; they give pulses from `start` on."""
 
+    @property
+    def gone(self) -> Mapping[str, str]:
+        """Nothing: a chip that is not there any more refuses what is written (`health`)."""
+        return {}
+
     def start(self) -> Mapping[str, Sequence[int]]:
         """Start chips that do not run; ticks of each one's outputs that are ours, as they are.
 
@@ -201,7 +206,7 @@ def writers_of(
     }
 
 
-class ThreadedChips(Closing):
+class ThreadedChips(Chips):
     """Chips of this machine, or of a simulation in another process."""
 
     def __init__(

@@ -10,28 +10,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Self
 
 import numpy as np
 import numpy.typing as npt
 
 from robot.clock import Clock, WallClock
-from robot.closing import Closing
-from robot.drivers.motor_bus import Capability, MotorCommand, MotorState
-from robot.drivers.motors.alarms import Alarms, Level, News, untold
-from robot.drivers.motors.claim import Claim
-from robot.drivers.motors.life import Life, not_let_go
-from robot.drivers.motors.limiter import Limiter, Measured
-from robot.drivers.motors.periods import Periods
+from robot.drivers.motor_bus import Capability, MotorCommand
+from robot.drivers.motors.alarms import Level, untold
+from robot.drivers.motors.heard import Heard
+from robot.drivers.motors.limiter import Measured
+from robot.drivers.motors.line_motors import LineMotors
 from robot.drivers.motors.plant_behind import PlantClock
 from robot.drivers.motors.pwm.chips import Chips, ThreadedChips, check_chips, real_bus
 from robot.drivers.motors.pwm.emulated import EmulatedChips, chips_in, emulated_bus
 from robot.drivers.motors.pwm.joint_map import PulseMap
 from robot.drivers.motors.pwm.pca9685 import OFF, TICKS, ticks
 from robot.drivers.motors.pwm.watching import Watch
-from robot.drivers.motors.speed_check import SpeedCheck
+from robot.drivers.motors.transmission import Transmission
 from robot.drivers.wiring import Wiring
-from robot.errors import DriverError
 from robot.se3 import Array
 
 ASSUMED, NO_PULSE = "assumed", "no_pulse"
@@ -75,30 +71,29 @@ def outputs(joints: PulseMap) -> dict[str, list[int]]:
     return {chip: [one.id for one in joints.on(chip).values()] for chip in joints.chips}
 
 
-class Unheard:
-    """Nothing is ever heard of these servos.
+class Assumed(Heard):
+    """Where joints are taken to be: where they were sent. Nothing else is known of them."""
 
-    Attributes:
-        lost: 0: no reply is awaited.
-    """
+    def __init__(self, joints: PulseMap) -> None:
+        """They stand at their start."""
+        super().__init__(joints, np.full(len(joints.joints), np.inf))
+        self.q[:] = [one.start_rad for one in joints.joints.values()]
+        self.tau[:] = np.nan
 
-    lost = 0
+    def at_joints(self, transmission: Transmission) -> tuple[Array, Array, Array]:  # noqa: ARG002
+        """Angles of the joints, no speeds, and torques that nobody knows."""
+        return self.q, self.qd, self.tau
 
-    def forget_where(self) -> None:
-        """It is not known anyway."""
 
+class PwmMotors(LineMotors[PulseMap, Chips, Assumed, Watch]):
+    """All hobby servos of a map (`LineMotors`); of them nothing is heard.
 
-class PwmMotors(Closing):
-    """All hobby servos of a map.
-
-    Attributes:
-        joints: the map, in the order of every array.
-        alarms: what is wrong with the chips now.
-        reception: nothing.
-        speeds: nothing that could be compared.
+    `alarms` are of their chips. At the end their pulses are taken away: they can do nothing else.
     """
 
     capabilities: frozenset[Capability] = frozenset()
+    title, scheme = "PWM", "i2c"
+    brakes = False
 
     def __init__(
         self,
@@ -110,178 +105,97 @@ class PwmMotors(Closing):
         waits: bool = True,
         lets_go: bool = True,
     ) -> None:
-        """Know the servos; nothing is opened.
-
-        Args:
-            joints: the map.
-            clock: of its periods.
-            ports: reaches its chips.
-            tell: hears a line of every alarm, and at the end how chips were.
-            waits: whether `read` waits for the end of a period; False where another driver of the
-                same robot sets the pace.
-            lets_go: they can do nothing else: pulses are taken away at the end.
-        """
-        del lets_go
-        self.joints = joints
-        self.alarms = Alarms()
-        self.reception, self.speeds = Unheard(), SpeedCheck(len(joints.joints))
-        self._tell, self._news, self._waits = tell, News(self.alarms, tell), waits
-        self._clock, self._periods = clock, Periods(clock, joints.period_s)
-        self.limiter, self._watch = Limiter(joints), Watch(joints, self.alarms)
-        self._servos = list(joints.joints.values())
-        self._frame_s = [joints.chips[one.chip].frame_s for one in self._servos]
-        self._start: Array = np.array([one.start_rad for one in self._servos])
-        self._claim = Claim(f"i2c:{at}" for at in joints.channels.values())
-        self._life = Life(ports, self._claim)
+        """Know the servos; nothing is opened."""
+        super().__init__(joints, clock, ports=ports, tell=tell, waits=waits, lets_go=lets_go)
+        self._motors = list(joints.joints.values())
+        self._frame_s = [joints.chips[one.chip].frame_s for one in self._motors]
         self._index = {name: index for index, name in enumerate(joints.joints)}
-        self._is_armed = False
-        self._commanded = 0
+        self._ours = [chip for chip in joints.chips if joints.on(chip)]
         self._forget()
 
     def _forget(self) -> None:
-        self._sent: MotorCommand | None = None
-        self._q: Array = self._start.copy()
-        self._exact: Array = self._start.copy()  # before it was rounded to ticks
-        self._on: npt.NDArray[np.bool_] = np.zeros(len(self._servos), np.bool_)
+        self.reception = Assumed(self.joints)
+        self._exact: Array = self.reception.q.copy()  # before it was rounded to ticks
+        self._on: npt.NDArray[np.bool_] = np.zeros(len(self._motors), np.bool_)
+
+    def _meet(self, lines: Chips, *, is_free: bool) -> None:  # noqa: ARG002
+        """They were seen to be there as they were opened; nothing is written, no pulse given."""
+        self._forget()
+        self._sent = None
         self.limiter.forget()
 
-    def __enter__(self) -> Self:
-        """See whether all chips are there; nothing is written, and no pulse is given.
+    def _watches(self, lines: Chips) -> Watch:
+        return Watch(self.joints, self.alarms, lines)
 
-        Raises:
-            DriverError: if a bus or a chip is not there.
-        """
-        self._forget()
-        self._life.open(lambda _: None)
-        self._periods.begin()
-        return self
+    def _damp(self, lines: Chips) -> None:
+        """Nothing: they cannot brake."""
 
-    def close(self) -> None:
-        """Take all pulses away, if they are given from here, and close.
+    def _let_go(self, lines: Chips) -> list[str]:
+        return [name for chip in lines.off() for name in self.joints.on(chip)]
 
-        Raises:
-            DriverError: if a chip was not seen to do so.
-        """
-        self._life.close(self._leave, self._left)
+    def _summary(self) -> str:
+        return f"PWM: {self._where}, {self._commanded} periods; not measured"
 
-    def _leave(self, chips: Chips) -> None:
-        if not self._is_armed:
-            return
-        if on := chips.off():
-            raise not_let_go(name for chip in on for name in self.joints.on(chip))
-
-    def _left(self) -> None:
-        self._is_armed = False
-        if self._commanded:
-            self._tell(f"PWM: {len(self._servos)} joints, {self._commanded} periods; not measured")
-
-    def claim(self) -> bool:
-        """Become the one that commands these chips; False while another one does."""
-        return self._life.claim(lambda _: self._periods.begin())
-
-    @property
-    def late(self) -> int:
-        """Periods that began late by more than one."""
-        return self._periods.late
+    def _drop(self, lines: Chips) -> None:
+        """Nothing came in."""
 
     def status_of(self, index: int) -> str:
         """Whether a joint's servo is sent anywhere, in one word."""
         return ASSUMED if self._on[index] else NO_PULSE
 
     def reset(self) -> None:
-        """Forget every alarm, also latched ones; the next command starts chips that do not run.
-
-        What is still wrong sounds again.
-        """
-        self.alarms.reset()
-        self._is_armed = False
+        """Forget every alarm, also latched ones; the next command starts chips that do not run."""
+        super().reset()
         self._forget()
 
-    @property
-    def _ours(self) -> list[str]:
-        return [chip for chip in self.joints.chips if self.joints.on(chip)]
-
-    def read(self) -> MotorState:
-        """Where the joints are taken to be, at the end of this period."""
-        chips = self._life.lines
-        if self._waits:
-            self._periods.wait(lambda: None)
-        for chip in self._ours:
-            self._watch.look(chip, chips.health(chip))
-        now_s = self._clock.now_s()
-        self._commanded += self._is_armed
-        if self._is_armed:
-            self._news.say(now_s)
-        nothing = np.full(len(self._servos), np.nan)
-        return MotorState(
-            stamp_s=now_s,
-            q=self._q.copy(),
-            qd=np.zeros(len(self._servos)),
-            tau=nothing,
-            temperature_c=nothing.copy(),
-            age_s=np.full(len(self._servos), np.inf),
-            watchdog=not self._is_armed,
-            command_stamp_s=-np.inf if self._sent is None else self._sent.stamp_s,
-            alarms=self.alarms.messages() if self._is_armed else (),
-        )
-
-    def arm(self) -> None:
+    def _enable(self, lines: Chips) -> bool:
         """Start the chips; where they pulse already, servos are taken to stand.
 
-        Nothing else is to be enabled: a servo goes by its first pulse. Raises DriverError if a chip
-        does not start.
+        Nothing else is to be enabled: a servo goes by its first pulse.
         """
-        if self._is_armed:
-            self._life.check()
-            return
-        for chip, counts in self._life.lines.start().items():
+        for chip, counts in lines.start().items():
             ours = self.joints.on(chip)
             first = min(one.id for one in ours.values())
             for name, one in ours.items():
                 if (count := counts[one.id - first]) != OFF:
                     pulse_s = count * self.joints.chips[chip].frame_s / TICKS
-                    self._q[self._index[name]] = one.at_rad(pulse_s)
-        self._exact = self._q.copy()
-        self._is_armed = True
+                    self.reception.q[self._index[name]] = one.at_rad(pulse_s)
+        self._exact = self.reception.q.copy()
+        return False
 
-    def write(self, command: MotorCommand) -> MotorCommand:
-        """Send joints where they are to go; returns where the pulses say, and no gains.
-
-        While an alarm says HOLD, pulses stay as they are.
-
-        Raises:
-            DriverError: if a value is not finite or a shape is wrong (nothing is sent), or another
-                driver commands.
-        """
-        chips = self._life.lines
-        self.limiter.check(command)
-        if not self.claim():
-            raise DriverError("another controller commands the motors")
-        self.arm()
-        zero = np.zeros(len(self._servos))
+    def _obey(self, lines: Chips, command: MotorCommand) -> MotorCommand:
+        """While an alarm says HOLD, pulses stay as they are."""
         if self.alarms.level != Level.HOLD:
-            measured = Measured(self._exact, zero, np.full(len(self._servos), np.nan))
-            limited = self.limiter.apply(command, measured)
-            self._on = command.kp > 0.0
-            self._exact = np.where(self._on, limited.q_des, self._exact)
-            counts = self._counts(limited.q_des)
-            for chip in self._ours:
-                chips.put(chip, self._outputs(chip, counts))
-        self._sent = MotorCommand(
-            command.stamp_s, self._q.copy(), zero, zero.copy(), zero.copy(), zero.copy()
+            nothing = np.full(len(self._motors), np.nan)
+            measured = Measured(self._exact, np.zeros_like(self._exact), nothing)
+            return self._send(lines, self.limiter.apply(command, measured))
+        return self._told(command.stamp_s)
+
+    def _send(self, lines: Chips, command: MotorCommand) -> MotorCommand:
+        self._on = command.kp > 0.0
+        self._exact = np.where(self._on, command.q_des, self._exact)
+        counts = self._counts(command.q_des)
+        for chip in self._ours:
+            lines.put(chip, self._outputs(chip, counts))
+        return self._told(command.stamp_s)
+
+    def _told(self, stamp_s: float) -> MotorCommand:
+        """Where the pulses send the joints."""
+        zero = np.zeros(len(self._motors))
+        return MotorCommand(
+            stamp_s, self.reception.q.copy(), zero, zero.copy(), zero.copy(), zero.copy()
         )
-        return self._sent
 
     def _counts(self, q_des: Array) -> list[int]:
         """Ticks of every joint; remembers where they send those that get a pulse."""
         counts: list[int] = []
-        for index, one in enumerate(self._servos):
+        for index, one in enumerate(self._motors):
             if not self._on[index]:
                 counts.append(OFF)
                 continue
             frame_s = self._frame_s[index]
             count = ticks(one.pulse_s(float(q_des[index])), frame_s)
-            self._q[index] = one.at_rad(count * frame_s / TICKS)
+            self.reception.q[index] = one.at_rad(count * frame_s / TICKS)
             counts.append(count)
         return counts
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from robot.drivers.motors.alarms import Alarms, Kind, Level
-from robot.drivers.motors.pwm.chips import Health
+from robot.drivers.motors import watching
+from robot.drivers.motors.alarms import Alarm, Alarms, Kind, Level
+from robot.drivers.motors.heard import Heard
+from robot.drivers.motors.pwm.chips import Chips, Health
 from robot.drivers.motors.pwm.joint_map import PulseMap
 
 HOLD_FAILURES, DEAD_FAILURES = 3, 10
@@ -47,15 +49,26 @@ KINDS = (REFUSED, DEAD, SLOW, STUCK, RESTARTED)
 """What only hobby servos have, and all that they have: they measure nothing."""
 
 
-class Watch:
+class Watch(watching.Watch[PulseMap, Heard]):
     """Of all chips of a map."""
 
-    def __init__(self, joints: PulseMap, alarms: Alarms) -> None:
-        """Sounds these alarms."""
-        self._alarms, self._map = alarms, joints
+    def __init__(self, joints: PulseMap, alarms: Alarms, chips: Chips) -> None:
+        """Sounds these alarms; `chips` say how they are."""
+        super().__init__(joints, alarms)
+        self._chips = chips
+        self._ours = [chip for chip in joints.chips if joints.on(chip)]
 
-    def look(self, chip: str, health: Health) -> None:
-        """A period ended."""
+    def _is_odd(self, heard: Heard) -> bool:  # noqa: ARG002
+        return False
+
+    def _of_one(self, index: int, heard: Heard, *, is_armed: bool) -> list[Alarm]:  # noqa: ARG002
+        return []
+
+    def _of_lines(self, now_s: float, heard: Heard, *, is_armed: bool) -> None:  # noqa: ARG002
+        for chip in self._ours:
+            self._look(chip, self._chips.health(chip))
+
+    def _look(self, chip: str, health: Health) -> None:
         alarms, where = self._alarms, self._map.chips[chip]
         cure = f"look at power and wires: i2cdetect -y {where.bus} shows who is there"
         if health.failures >= HOLD_FAILURES:

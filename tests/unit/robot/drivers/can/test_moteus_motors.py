@@ -175,7 +175,7 @@ def test_a_question_beside_commands_destroys_none(rig: Rig):
     """Another program asks for feedback while this one commands, at the same moments."""
     with rig.driver, rig.another() as other:
         for _ in range(100):
-            other._ask()
+            other._ask(other._life.lines)
             rig.cycle(1)
         nodes = rig.bench.wires["arm"].nodes
         assert [node.transmit_errors for node in nodes] == [0] * len(nodes)

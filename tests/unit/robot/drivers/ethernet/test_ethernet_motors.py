@@ -412,7 +412,7 @@ def test_who_reads_takes_no_answer_from_who_commands(rig):
             rig.cycle(3)
             lost, missed = driver.reception.lost, reader.reception.lost
             for _ in range(50):  # both in the same periods, the reader without a wait of its own
-                reader._send(Kind.STATE, dict.fromkeys(rig.joints.boards, b""))
+                reader._ask(reader._life.lines, Kind.STATE, dict.fromkeys(rig.joints.boards, b""))
                 state = rig.cycle()
                 reader._hear()
                 told = reader._state()
