@@ -11,15 +11,14 @@ import time
 from pathlib import Path
 from typing import Annotated
 
-import msgspec
 import numpy as np
 import typer
 
 from robot.clock import WallClock
 from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.can import joint_map
-from robot.drivers.motors.can.driver import CanMotors
-from robot.drivers.motors.can.joint_map import Bus, JointMap
+from robot.drivers.motors.can.driver import FAMILY, CanMotors
+from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.can.ports import PythonCan
 from sim.devices.emulated import EmulatedMotors
 
@@ -51,6 +50,7 @@ def measure(joints: JointMap, cycles: int) -> dict[str, float]:
         ticks: list[float] = []
         worst_ms = 0.0
         used_s = wrote_s = 0.0
+        lost = late = 0
         for cycle in range(-SETTLE, cycles):
             if cycle == 0:
                 lost, late = driver.reception.lost, driver.late
@@ -90,12 +90,7 @@ def main(
         file = Path(folder) / "can.yaml"
         file.write_text(map_text(buses, joints, rate_hz))
         with EmulatedMotors(file, flaws={}) as emulated:
-            found = joint_map.load(file)
-            there = {
-                name: Bus(channel=emulated.channels[name], interface=emulated.interface)
-                for name in found.buses
-            }
-            found = msgspec.structs.replace(found, buses=there)
+            found = FAMILY.elsewhere(joint_map.load(file), emulated.channels)
             print(
                 f"{buses} buses, {joints} joints each, {rate_hz} Hz; load {found.load('bus0'):.0%}"
             )

@@ -13,14 +13,13 @@ import time
 from pathlib import Path
 from typing import Annotated
 
-import msgspec
 import numpy as np
 import typer
 
 from robot.clock import Clock, SimulatedClock, WallClock
 from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.dynamixel import joint_map
-from robot.drivers.motors.dynamixel.driver import DynamixelMotors
+from robot.drivers.motors.dynamixel.driver import FAMILY, DynamixelMotors
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
 from robot.drivers.motors.dynamixel.ports import SerialPorts
 from sim.devices.emulated import EmulatedMotors
@@ -103,11 +102,7 @@ def main(
             told = simulated(found, cycles)
         else:
             with EmulatedMotors(file, flaws={}) as emulated:
-                there = {
-                    name: msgspec.structs.replace(port, device=emulated.channels[name])
-                    for name, port in found.ports.items()
-                }
-                moved = msgspec.structs.replace(found, ports=there)
+                moved = FAMILY.elsewhere(found, emulated.channels)
                 clock = WallClock()
                 driver = DynamixelMotors(moved, clock, ports=lambda: SerialPorts(moved.ports))
                 told = measure(driver, clock, cycles)

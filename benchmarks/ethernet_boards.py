@@ -14,11 +14,10 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from robot.bringup import ethernet_tools
 from robot.clock import WallClock
 from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.ethernet import joint_map
-from robot.drivers.motors.ethernet.driver import EthernetMotors
+from robot.drivers.motors.ethernet.driver import FAMILY, EthernetMotors
 from robot.drivers.motors.ethernet.ports import UdpPorts
 from sim.devices.emulated import EmulatedMotors
 
@@ -82,7 +81,7 @@ def main(
         found = joint_map.load(file)
         print(f"{boards} boards, {joints} joints each, {rate_hz} Hz; {found.load('board0'):.1%}")
         with EmulatedMotors(file, flaws={}) as emulated:
-            there = ethernet_tools.elsewhere(found, emulated.channels, "")
+            there = FAMILY.elsewhere(found, emulated.channels)
             driver = EthernetMotors(there, WallClock(), ports=lambda: UdpPorts(there.boards))
             for name, value in measure(driver, int(seconds * rate_hz)).items():
                 print(f"  {name:18} {value:.4g}")

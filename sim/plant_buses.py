@@ -14,17 +14,15 @@ from robot.clock import Clock, SimulatedClock
 from robot.closing import Closing
 from robot.drivers.body_sample import BodySample
 from robot.drivers.motors import pwm_and_others, servos_and_others
-from robot.drivers.motors.can import joint_map
+from robot.drivers.motors.can import driver as can_driver
 from robot.drivers.motors.can.joint_map import JointMap
-from robot.drivers.motors.can.ports import socket_path
-from robot.drivers.motors.dynamixel.emulated import terminal_path
+from robot.drivers.motors.dynamixel import driver as servo_driver
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
-from robot.drivers.motors.ethernet import joint_map as drive_map
-from robot.drivers.motors.ethernet.emulated import address_path
+from robot.drivers.motors.ethernet import driver as board_driver
 from robot.drivers.motors.ethernet.joint_map import DriveMap
 from robot.drivers.motors.motor_map import MotorMap
 from robot.drivers.motors.mounting import Mounted
-from robot.drivers.motors.pwm.emulated import bus_path
+from robot.drivers.motors.pwm import driver as pulse_driver
 from robot.drivers.motors.pwm.joint_map import PulseMap
 from robot.drivers.registry import CAN, DYNAMIXEL, ETHERNET, PWM
 from robot.errors import ConfigError, Problem
@@ -71,12 +69,12 @@ def maps(robot: RobotDescription, driver: str) -> Maps:
         ConfigError: as the maps' own readers.
     """
     if driver == CAN:
-        return Maps(can=joint_map.beside(robot))
+        return Maps(can=can_driver.FAMILY.beside(robot))
     if driver == DYNAMIXEL:
         servos, joints = servos_and_others.maps(robot)
         return Maps(can=joints, servos=servos)
     if driver == ETHERNET:
-        return Maps(boards=drive_map.beside(robot))
+        return Maps(boards=board_driver.FAMILY.beside(robot))
     if driver == PWM:
         pulses, joints, boards = pwm_and_others.maps(robot)
         return Maps(can=joints, boards=boards, pulses=pulses)
@@ -179,7 +177,7 @@ class PlantBuses(Closing):
             shaft = self._body.shafts[name]
             self.motors.append(motor_on(joint, wires[joint.bus], shaft, heat_k_s=0.0))
             self._motor_places.append(self._places[name])
-        paths = [socket_path(folder, index) for index in range(len(wires))]
+        paths = [can_driver.FAMILY.path(folder, index) for index in range(len(wires))]
         return CanServer(list(zip(paths, wires.values(), strict=True)), self.motors, self._time)
 
     def _on_ports(self, servos: ServoMap | None, folder: Path) -> SerialServer:
@@ -194,7 +192,7 @@ class PlantBuses(Closing):
             self.servos.append(servo)
             self._servo_places.append(self._places[name])
         self._lines = list(lines.values())
-        paths = [terminal_path(folder, index) for index in range(len(lines))]
+        paths = [servo_driver.FAMILY.path(folder, index) for index in range(len(lines))]
         return SerialServer(list(zip(paths, self._lines, strict=True)), self._time)
 
     def _on_ethernet(self, boards: DriveMap | None, folder: Path) -> UdpServer:
@@ -205,7 +203,7 @@ class PlantBuses(Closing):
             made = cables_of(boards, shafts, self._plant.time_s, heat_k_s=0.0)
             self.cables = [*made.cables.values()]
             self._drives = [(drive, self._places[name]) for name, drive in made.drives.items()]
-        paths = [address_path(folder, index) for index in range(len(self.cables))]
+        paths = [board_driver.FAMILY.path(folder, index) for index in range(len(self.cables))]
         return UdpServer(list(zip(paths, self.cables, strict=True)), self._time)
 
     def _on_i2c(self, pulses: PulseMap | None, folder: Path) -> I2cServer:
@@ -213,7 +211,7 @@ class PlantBuses(Closing):
         shafts = {name: self._body.shafts[name] for name in joints}
         self.pulsed = bench_of(pulses, shafts, self._plant.time_s)
         buses = self.pulsed.buses.values()
-        paths = [bus_path(folder, index) for index in range(len(buses))]
+        paths = [pulse_driver.FAMILY.path(folder, index) for index in range(len(buses))]
         return I2cServer(list(zip(paths, buses, strict=True)), self.pulsed, self._time)
 
     def period(self, sample: BodySample, *, patience_s: float) -> bool:

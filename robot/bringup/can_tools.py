@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import zip_longest
 from typing import NamedTuple
 
 import msgspec
 
-from robot.bringup.motor_family import MapDriver
+from robot.bringup.motor_family import AnyMotors
 from robot.bringup.motor_reports import Reading, Seen, unless_nan
 from robot.clock import Clock
 from robot.drivers.motors.can.families import FAMILIES, Asking, Family
@@ -20,7 +20,7 @@ from robot.drivers.motors.can.interview import (
     read_registers,
 )
 from robot.drivers.motors.can.joint_map import SOCKETCAN, Bus, JointMap, JointMotor
-from robot.drivers.motors.can.ports import Heard, Ports, PythonCan, check_buses
+from robot.drivers.motors.can.ports import Heard, Ports
 from robot.drivers.motors.can.verdicts import told_by, verdicts
 from robot.drivers.motors.findings import Finding
 from robot.drivers.motors.motor_map import Motor
@@ -40,25 +40,6 @@ def nameless(
         for channel in channels
     }
     return JointMap(rate_hz=500, buses=buses, joints={})
-
-
-def elsewhere(joints: JointMap, channels: Mapping[str, str], by: str) -> JointMap:
-    """A map with its buses at other channels."""
-    buses = {
-        name: msgspec.structs.replace(bus, channel=channels[name], interface=by)
-        for name, bus in joints.buses.items()
-    }
-    return msgspec.structs.replace(joints, buses=buses)
-
-
-def check_user(joints: JointMap) -> None:
-    """Raises DriverError where the user does not let robots open one of its buses."""
-    check_buses(joints.buses)
-
-
-def ports(joints: JointMap, clock: Clock) -> Ports:
-    """Its buses, by python-can."""
-    return PythonCan(joints.buses, clock)
 
 
 def findings(ports: Ports, clock: Clock, joints: JointMap) -> list[Finding]:
@@ -217,7 +198,7 @@ def bare(joint: Motor) -> Motor:
     )
 
 
-def resting(driver: MapDriver, _ports: Ports, _clock: Clock) -> str:
+def resting(driver: AnyMotors, _ports: Ports, _clock: Clock) -> str:
     """The status of the only joint's motor; "" where it is disabled."""
     status = driver.status_of(0)
     return "" if status == DISABLED else status

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import msgspec
 
-from robot.bringup.motor_family import MapDriver
+from robot.bringup.motor_family import AnyMotors
 from robot.bringup.motor_reports import Reading, Seen, unless_nan
 from robot.clock import Clock
 from robot.drivers.motors.ethernet import arming, datagrams
 from robot.drivers.motors.ethernet.datagrams import Kind
 from robot.drivers.motors.ethernet.interview import Answers, at_joints, interview, status, verdicts
 from robot.drivers.motors.ethernet.joint_map import DriveMap
-from robot.drivers.motors.ethernet.ports import Ports, UdpPorts, check_boards
+from robot.drivers.motors.ethernet.ports import Ports
 from robot.drivers.motors.ethernet.talking import Question, Talk
 from robot.drivers.motors.findings import Finding
 from robot.drivers.motors.motor_map import Motor
@@ -22,25 +20,6 @@ from robot.drivers.motors.transmission import Motion
 MOST_RAD = 1000.0
 """Of a motor by its own angles: its numbers have no end, a person's turning has."""
 DISABLED = "disabled"
-
-
-def elsewhere(joints: DriveMap, channels: Mapping[str, str], _by: str) -> DriveMap:
-    """A map with its boards where these files say."""
-    boards = {
-        name: msgspec.structs.replace(board, address=channels[name])
-        for name, board in joints.boards.items()
-    }
-    return msgspec.structs.replace(joints, boards=boards)
-
-
-def check_user(joints: DriveMap) -> None:
-    """Raises DriverError where the user does not let robots talk to one of its boards."""
-    check_boards(joints.boards)
-
-
-def ports(joints: DriveMap, _clock: Clock) -> Ports:
-    """The ways to its boards, from this machine."""
-    return UdpPorts(joints.boards)
 
 
 def findings(ports: Ports, clock: Clock, joints: DriveMap) -> list[Finding]:
@@ -105,7 +84,7 @@ def bare(joint: Motor) -> Motor:
     )  # fmt: skip
 
 
-def resting(driver: MapDriver, _ports: Ports, _clock: Clock) -> str:
+def resting(driver: AnyMotors, _ports: Ports, _clock: Clock) -> str:
     """What the only joint's drive says of itself; "" where it is disabled."""
     status = driver.status_of(0)
     return "" if status == DISABLED else status

@@ -17,7 +17,7 @@ import numpy as np
 
 from robot.bringup import motor_families
 from robot.bringup.end_wish import EndWish
-from robot.bringup.motor_family import MapDriver
+from robot.bringup.motor_family import AnyMotors
 from robot.clock import Clock
 from robot.closing import Closing
 from robot.drivers.motor_bus import MotorCommand
@@ -53,7 +53,7 @@ BLOCKED = "look for what blocks it, or give it more with --torque"
 
 def opened(joints: M, clock: Clock, opens: Opens[M] | None) -> Closing:
     """The buses or ports of a map: its family's, or as a test has them."""
-    return opens(joints) if opens else motor_families.of(joints).ports(joints, clock)
+    return opens(joints) if opens else motor_families.of(joints).of.ports(joints, clock)
 
 
 def only(joints: M, name: str) -> M:
@@ -80,7 +80,7 @@ def only(joints: M, name: str) -> M:
         rate_hz=min(family.jog_hz, joints.rate_hz),
         watchdog_s=max(WATCHDOG_S, joints.watchdog_s),
         joints={name: joint},
-        **{family.lines: {joint.line: getattr(joints, family.lines)[joint.line]}},
+        **{family.of.lines: {joint.line: family.of.lines_of(joints)[joint.line]}},
     )
 
 
@@ -131,12 +131,12 @@ def zero(
     one, family = only(joints, name), motor_families.of(joints)
     joint = one.joints[name]
     # What the map says of the motor's angles is in question.
-    free = msgspec.structs.replace(one, joints={name: family.bare(joint)})
+    free = msgspec.structs.replace(one, joints={name: family.tools.bare(joint)})
     lines = opened(free, clock, opens)
-    with family.motors(free, clock, ports=lambda: lines, lets_go=True) as driver:
+    with family.of.motors(free, clock, ports=lambda: lines, lets_go=True) as driver:
         if not driver.claim():
             raise DriverError(f"another program commands the bus of {name}: end that one first")
-        if status := family.resting(driver, lines, clock).replace("_", " "):
+        if status := family.tools.resting(driver, lines, clock).replace("_", " "):
             cure = "switch it off and on again, or clear its fault; nothing was changed"
             raise DriverError(f"{name} is {status}, and has to be disabled ({cure})")
         motor_rad = _still_rad(driver, clock, name)
@@ -144,14 +144,16 @@ def zero(
         if not in_motor:
             offset_rad = at_rad - joint.sign * motor_rad / joint.gear
         else:
-            _set_zero(driver, partial(family.set_zero, lines, clock, one, at_rad), clock, name)
+            _set_zero(
+                driver, partial(family.tools.set_zero, lines, clock, one, at_rad), clock, name
+            )
             offset_rad = at_rad
     return Zeroed(
         joint=name, was_rad=was_rad, at_rad=at_rad, offset_rad=offset_rad, is_in_motor=in_motor
     )
 
 
-def _set_zero(driver: MapDriver, tell: Callable[[], None], clock: Clock, name: str) -> None:
+def _set_zero(driver: AnyMotors, tell: Callable[[], None], clock: Clock, name: str) -> None:
     """Let its motor call this position zero. Raises DriverError if it was not seen to."""
     try:
         tell()
@@ -166,7 +168,7 @@ def _set_zero(driver: MapDriver, tell: Callable[[], None], clock: Clock, name: s
         raise DriverError(f"{text} (set it with the maker's tool)")
 
 
-def _still_rad(driver: MapDriver, clock: Clock, name: str) -> float:
+def _still_rad(driver: AnyMotors, clock: Clock, name: str) -> float:
     """Where its motor stands, once it is still. Raises DriverError if it is not, or is silent."""
     until_s, since_s = clock.now_s() + WAITS_S, clock.now_s()
     seen: list[float] = []
@@ -247,7 +249,7 @@ def jog(
     one = msgspec.structs.replace(one, joints={name: weak})
     motion: _Jog | None = None
     try:
-        with family.motors(
+        with family.of.motors(
             one, clock, ports=lambda: opened(one, clock, opens), lets_go=True
         ) as driver:
             from_rad = _from_rad(driver, name)
@@ -264,7 +266,7 @@ def jog(
         raise DriverError(f"{text} (cut the power before you touch it)") from None
 
 
-def _from_rad(driver: MapDriver, name: str) -> float:
+def _from_rad(driver: AnyMotors, name: str) -> float:
     """Where the joint is. Raises DriverError if its motor has not told that."""
     state = driver.read()
     if not np.isfinite(state.age_s[0]):
@@ -291,7 +293,7 @@ class _Jog:
 
     def __init__(
         self,
-        driver: MapDriver,
+        driver: AnyMotors,
         clock: Clock,
         wish: EndWish,
         *,

@@ -8,8 +8,6 @@ from robot.bringup.motor_families import BY_DRIVER, of
 from robot.bringup.motor_tools import loads
 from robot.control.loop import BUS_PERIOD_S
 from robot.drivers.motors import pwm_and_others, servos_and_others
-from robot.drivers.motors.can import joint_map as can_map
-from robot.drivers.motors.ethernet import joint_map as drive_map
 from robot.drivers.motors.motor_map import MotorMap
 from robot.drivers.registry import CAN, ETHERNET, MOTORS, PWM
 from robot.errors import ConfigError, Problem
@@ -29,15 +27,13 @@ def checked(robot: RobotDescription, driver: str) -> str:
         raise ConfigError([Problem(text, suggestion=nearest(driver, known))])
     if driver not in BY_DRIVER:
         return ""
-    file = robot.path().with_name(BY_DRIVER[driver].file)
+    file = robot.path().with_name(BY_DRIVER[driver].of.file)
     if not file.is_file():
         cure = f"write {file.name} beside the robot's description (docs/hardware.md)"
         text = f"the robot {robot.name!r} has no joint map: which motor moves which joint"
         raise ConfigError([Problem(text, str(file), suggestion=cure)])
-    if driver == CAN:
-        return _on(can_map.beside(robot))
-    if driver == ETHERNET:
-        return _on(drive_map.beside(robot))
+    if driver in (CAN, ETHERNET):
+        return _on(BY_DRIVER[driver].of.beside(robot))
     found = pwm_and_others.maps(robot) if driver == PWM else servos_and_others.maps(robot)
     return " ".join(_on(joints) for joints in found if joints is not None)
 
@@ -48,7 +44,7 @@ def _on(joints: MotorMap) -> str:
     fullest = max(lines, key=lambda load: load.share)
     return (
         f"Motors by {family.title} (emulated): {len(joints.joints)} joints on {len(lines)} "
-        f"{family.lines} at {joints.rate_hz} Hz; the fullest, {fullest.bus}, is "
+        f"{family.of.lines} at {joints.rate_hz} Hz; the fullest, {fullest.bus}, is "
         f"{fullest.share:.0%} busy."
     )
 

@@ -21,7 +21,7 @@ from robot.bringup import motor_families
 from robot.bringup.end_wish import EndWish
 from robot.bringup.joint_estimates import Friction, Reversal, Sweep, friction, is_whole, turned
 from robot.bringup.motor_bench import DAMPING_SHARE, STIFF_RAD, M, Opens, only, opened
-from robot.bringup.motor_family import MapDriver
+from robot.bringup.motor_family import AnyMotors
 from robot.clock import Clock
 from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.alarms import Level
@@ -132,7 +132,7 @@ def identify(
     )
     motion: _Motion | None = None
     try:
-        with family.motors(
+        with family.of.motors(
             one, clock, ports=lambda: opened(one, clock, opens), lets_go=True
         ) as driver:
             motion = _Motion(driver, clock, wish, limit_nm)
@@ -215,7 +215,7 @@ class _Motion:
         was_away: whether the last burst ended because it went too far.
     """
 
-    def __init__(self, driver: MapDriver, clock: Clock, wish: EndWish, limit_nm: float) -> None:
+    def __init__(self, driver: AnyMotors, clock: Clock, wish: EndWish, limit_nm: float) -> None:
         self._driver, self._clock, self._wish = driver, clock, wish
         ((self._name, _),) = driver.joints.joints.items()
         state = driver.read()

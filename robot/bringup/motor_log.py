@@ -64,7 +64,7 @@ def log(
     )
     rows, first_s, last_s = 0, 0.0, 0.0
     family = motor_families.of(joints)
-    with family.motors(joints, clock, ports=lambda: opened(joints, clock, opens)) as driver:
+    with family.of.motors(joints, clock, ports=lambda: opened(joints, clock, opens)) as driver:
         lost = driver.reception.lost
         due_s = begun_s = clock.now_s()
         try:

@@ -13,7 +13,7 @@ from typing import TypeAlias
 import numpy as np
 
 from robot.bringup import motor_families
-from robot.bringup.motor_family import MapDriver
+from robot.bringup.motor_family import AnyMotors
 from robot.bringup.motor_reports import Check, Line, Load, Reading, Seen, Watched
 from robot.clock import Clock
 from robot.drivers.motors.findings import Finding
@@ -36,7 +36,7 @@ def map_path(robot: str, file: Path | None) -> Path:
     """
     if file is not None:
         return file
-    found = description.load(robot).path().with_name(motor_families.FAMILIES[0].file)
+    found = description.load(robot).path().with_name(motor_families.FAMILIES[0].of.file)
     if not found.exists():
         text = f"{robot!r} has no joint map: {found} is not there"
         cure = "write it (docs/hardware.md), or name another with --map"
@@ -44,19 +44,19 @@ def map_path(robot: str, file: Path | None) -> Path:
     return found
 
 
-def load_map(path: Path, channels: Mapping[str, str] | None = None, *, by: str = "") -> MotorMap:
-    """A joint map, its lines at other channels where these are given (of the interface `by`).
+def load_map(path: Path, channels: Mapping[str, str] | None = None) -> MotorMap:
+    """A joint map, its lines where a simulation has them if these are given.
 
     Raises:
         ConfigError: with everything that is wrong in it.
         DriverError: the user does not let robots open one of its lines.
     """
     family = motor_families.of_file(path)
-    found = family.load(path)
+    found = family.of.load(path)
     if channels is None:
-        family.check_user(found)
+        family.of.check_user(found)
         return found
-    return family.elsewhere(found, channels, by)
+    return family.of.elsewhere(found, channels)
 
 
 def loads(joints: MotorMap) -> tuple[Load, ...]:
@@ -76,15 +76,15 @@ def scan(joints: MotorMap, clock: Clock, *, up_to: int) -> list[Seen]:
         DriverError: if a line cannot be opened.
     """
     family = motor_families.of(joints)
-    with family.ports(joints, clock) as ports:
-        return family.scan(ports, clock, joints, up_to)
+    with family.of.ports(joints, clock) as ports:
+        return family.tools.scan(ports, clock, joints, up_to)
 
 
 def read(joints: MotorMap, clock: Clock) -> list[Reading]:
     """What every motor says now, each asked once. Raises DriverError if a line is not there."""
     family = motor_families.of(joints)
-    with family.ports(joints, clock) as ports:
-        return family.readings(ports, clock, joints)
+    with family.of.ports(joints, clock) as ports:
+        return family.tools.readings(ports, clock, joints)
 
 
 # --- check -------------------------------------------------------------------------------------
@@ -97,8 +97,8 @@ def check(joints: MotorMap, clock: Clock, *, for_s: float) -> Check:
         DriverError: if a line cannot be opened, or went away.
     """
     family = motor_families.of(joints)
-    with family.ports(joints, clock) as ports:
-        found = family.findings(ports, clock, joints)
+    with family.of.ports(joints, clock) as ports:
+        found = family.tools.findings(ports, clock, joints)
     if any(finding.is_grave for finding in found):
         return _checked(joints, found)
     with driver_of(joints, clock) as driver:
@@ -118,13 +118,13 @@ def check(joints: MotorMap, clock: Clock, *, for_s: float) -> Check:
         return _checked(joints, found, answered=answered, late=driver.late)
 
 
-def driver_of(joints: MotorMap, clock: Clock) -> MapDriver:
+def driver_of(joints: MotorMap, clock: Clock) -> AnyMotors:
     """A driver of a map's motors, over its own lines."""
     family = motor_families.of(joints)
-    return family.motors(joints, clock, ports=lambda: family.ports(joints, clock))
+    return family.of.motors(joints, clock, ports=lambda: family.of.ports(joints, clock))
 
 
-def _moving(driver: MapDriver, speed_cure: str) -> Iterator[Finding]:
+def _moving(driver: AnyMotors, speed_cure: str) -> Iterator[Finding]:
     """Whether speeds fit positions, of the joints that moved; what was said while they did."""
     speeds = driver.speeds
     for index, name in enumerate(driver.joints.joints):

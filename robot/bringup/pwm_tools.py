@@ -2,42 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
-import msgspec
-
-from robot.bringup.motor_family import MapDriver
+from robot.bringup.motor_family import AnyMotors
 from robot.bringup.motor_reports import Reading, Seen
 from robot.clock import Clock
 from robot.drivers.motors.findings import Finding
 from robot.drivers.motors.motor_map import Motor
-from robot.drivers.motors.pwm.chips import Chips, check_chips
-from robot.drivers.motors.pwm.driver import chips_of
+from robot.drivers.motors.pwm.chips import Chips
 from robot.drivers.motors.pwm.joint_map import PulseMap
 from robot.drivers.motors.pwm.pca9685 import OFF
 from robot.errors import DriverError
 
 PULSES, NO_PULSE = "pulses", "no_pulse"
 NOTHING = "a hobby servo does not say where it is"
-
-
-def elsewhere(joints: PulseMap, channels: Mapping[str, str], _by: str) -> PulseMap:
-    """A map with its chips at these sockets."""
-    chips = {
-        name: msgspec.structs.replace(chip, emulated=channels[name])
-        for name, chip in joints.chips.items()
-    }
-    return msgspec.structs.replace(joints, chips=chips)
-
-
-def check_user(joints: PulseMap) -> None:
-    """Raises DriverError where the user does not let robots open one of its buses."""
-    check_chips(joints.chips)
-
-
-def ports(joints: PulseMap, _clock: Clock) -> Chips:
-    """Its chips, of this machine."""
-    return chips_of(joints)
 
 
 def findings(_ports: Chips, _clock: Clock, _joints: PulseMap) -> list[Finding]:
@@ -93,7 +69,7 @@ def bare(joint: Motor) -> Motor:
     return joint
 
 
-def resting(driver: MapDriver, _ports: Chips, _clock: Clock) -> str:
+def resting(driver: AnyMotors, _ports: Chips, _clock: Clock) -> str:
     """What is known of the only joint's servo; "" where it gets no pulse."""
     status = driver.status_of(0)
     return "" if status == NO_PULSE else status

@@ -79,7 +79,7 @@ def watchdogs() -> Rows:
             f"{motor_map.WATCHDOG_PERIODS} periods" if usual_s else "-",
         ]
         for family in FAMILIES
-        for usual_s in (_usual(family.map, "watchdog_s"),)
+        for usual_s in (_usual(family.of.map, "watchdog_s"),)
     ]
 
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 
 import msgspec
 
-from robot.bringup.motor_family import MapDriver
+from robot.bringup.motor_family import AnyMotors
 from robot.bringup.motor_reports import Reading, Seen
 from robot.clock import Clock
 from robot.drivers.motors.dynamixel import arming, instructions
@@ -16,7 +15,7 @@ from robot.drivers.motors.dynamixel.driver import DynamixelMotors
 from robot.drivers.motors.dynamixel.interview import MIDDLE, Answers, interview, verdicts
 from robot.drivers.motors.dynamixel.joint_map import JointServo, ServoMap
 from robot.drivers.motors.dynamixel.models import RAD_A_PULSE
-from robot.drivers.motors.dynamixel.ports import Ports, SerialPorts, check_ports
+from robot.drivers.motors.dynamixel.ports import Ports
 from robot.drivers.motors.dynamixel.talking import WAITS_S, Talk
 from robot.drivers.motors.findings import Finding
 from robot.drivers.motors.motor_map import Motor
@@ -26,25 +25,6 @@ TURN = 4096
 """Pulses: without power a servo forgets how many turns it made."""
 MOST_TURNS = 256
 """Either way, that a servo tells."""
-
-
-def elsewhere(joints: ServoMap, channels: Mapping[str, str], _by: str) -> ServoMap:
-    """A map with its ports at other devices."""
-    ports = {
-        name: msgspec.structs.replace(port, device=channels[name])
-        for name, port in joints.ports.items()
-    }
-    return msgspec.structs.replace(joints, ports=ports)
-
-
-def check_user(joints: ServoMap) -> None:
-    """Raises DriverError where the user does not let robots open one of its ports."""
-    check_ports(joints.ports)
-
-
-def ports(joints: ServoMap, _clock: Clock) -> Ports:
-    """Its ports, of this machine."""
-    return SerialPorts(joints.ports)
 
 
 def findings(ports: Ports, clock: Clock, joints: ServoMap) -> list[Finding]:
@@ -121,7 +101,7 @@ def bare(joint: Motor) -> Motor:
     )
 
 
-def resting(driver: MapDriver, ports: Ports, clock: Clock) -> str:
+def resting(driver: AnyMotors, ports: Ports, clock: Clock) -> str:
     """What the only joint's servo says of its torque; "" where it gives none."""
     assert isinstance(driver, DynamixelMotors)
     ((name, _),) = driver.joints.joints.items()

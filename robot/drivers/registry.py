@@ -85,9 +85,9 @@ def _simulated_motors(wiring: Wiring) -> MotorBus:
 
 
 def _can_motors(wiring: Wiring) -> MotorBus:
-    from robot.drivers.motors.can.driver import make
+    from robot.drivers.motors.can.driver import FAMILY
 
-    return make(wiring)
+    return FAMILY.make(wiring)
 
 
 def _dynamixel_motors(wiring: Wiring) -> MotorBus:
@@ -97,9 +97,9 @@ def _dynamixel_motors(wiring: Wiring) -> MotorBus:
 
 
 def _ethernet_motors(wiring: Wiring) -> MotorBus:
-    from robot.drivers.motors.ethernet.driver import make
+    from robot.drivers.motors.ethernet.driver import FAMILY
 
-    return make(wiring)
+    return FAMILY.make(wiring)
 
 
 def _hobby_servos(wiring: Wiring) -> MotorBus:

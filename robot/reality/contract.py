@@ -153,12 +153,7 @@ class Reality(Protocol):
 
 
 class EmulatedBuses(Closing, Protocol):
-    """Emulated CAN buses, in a process of their own until closed."""
-
-    @property
-    def interface(self) -> str:
-        """Of python-can, by which they are reached."""
-        ...
+    """Emulated buses or ports of a joint map, in a process of their own until closed."""
 
     @property
     def channels(self) -> Mapping[str, str]:

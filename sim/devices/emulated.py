@@ -27,17 +27,15 @@ class EmulatedMotors(Closing):
     It ends when this is closed, or dies.
 
     Attributes:
-        interface: of python-can.
         channels: paths of the sockets or terminals, by bus or port.
     """
 
     def __init__(self, file: Path, *, flaws: Mapping[str, str], is_still: bool = False) -> None:
         """Look at the map. Raises ConfigError as `bench.build`."""
         self._file, self._flaws, self._is_still = file, flaws, is_still
-        wanted, family = families.loaded(file)
-        family.build(wanted, flaws=flaws)
+        wanted, family, emulated = families.loaded(file)
+        emulated.build(wanted, flaws=flaws)
         self._lines, self._path = tuple(wanted.channels), family.path
-        self.interface = family.interface
         self._folder: private_folder.PrivateFolder | None = None
         self._child: subprocess.Popen[bytes] | None = None
         self.channels: Mapping[str, str] = {}

@@ -5,17 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, NamedTuple, Protocol, TypeVar
 
 from robot.bringup import motor_families
 from robot.clock import Clock
 from robot.closing import Closing
-from robot.drivers.motors.can.emulated import INTERFACE
-from robot.drivers.motors.can.ports import socket_path
-from robot.drivers.motors.dynamixel.emulated import terminal_path
-from robot.drivers.motors.ethernet.emulated import address_path
+from robot.drivers.motors.line_family import LineFamily
 from robot.drivers.motors.motor_map import MotorMap
-from robot.drivers.motors.pwm.emulated import bus_path
 from robot.drivers.registry import CAN, DYNAMIXEL, ETHERNET, PWM
 from sim.devices import bench, ethernet_bench, pwm_bench, servo_bench
 from sim.devices.bench import Bench
@@ -60,15 +56,11 @@ class EmulatedFamily(Generic[B]):
 
     Attributes:
         build: makes its motors.
-        path: where the line of a number is, in a folder.
-        serve: puts them there, as many paths as lines.
-        interface: by which python-can opens such a path; "" of what is no bus of frames.
+        serve: puts them at paths, as many as there are lines.
     """
 
     build: Builds[B]
-    path: Callable[[Path, int], Path]
     serve: Callable[[Sequence[Path], B, Clock], Server]
-    interface: str = ""
 
 
 def _on_sockets(paths: Sequence[Path], built: Bench, clock: Clock) -> Server:
@@ -88,20 +80,26 @@ def _on_i2c(paths: Sequence[Path], built: PwmBench, clock: Clock) -> Server:
 
 
 EMULATED: Mapping[str, EmulatedFamily[Any]] = {
-    CAN: EmulatedFamily(
-        build=bench.build, path=socket_path, serve=_on_sockets, interface=INTERFACE
-    ),
-    DYNAMIXEL: EmulatedFamily(build=servo_bench.build, path=terminal_path, serve=_on_terminals),
-    PWM: EmulatedFamily(build=pwm_bench.build, path=bus_path, serve=_on_i2c),
-    ETHERNET: EmulatedFamily(build=ethernet_bench.build, path=address_path, serve=_on_udp),
+    CAN: EmulatedFamily(build=bench.build, serve=_on_sockets),
+    DYNAMIXEL: EmulatedFamily(build=servo_bench.build, serve=_on_terminals),
+    PWM: EmulatedFamily(build=pwm_bench.build, serve=_on_i2c),
+    ETHERNET: EmulatedFamily(build=ethernet_bench.build, serve=_on_udp),
 }
 
 
-def loaded(file: Path) -> tuple[MotorMap, EmulatedFamily[Any]]:
+class Loaded(NamedTuple):
+    """A joint map, its family, and how that is emulated."""
+
+    joints: MotorMap
+    family: LineFamily[Any, Any]
+    emulated: EmulatedFamily[Any]
+
+
+def loaded(file: Path) -> Loaded:
     """A joint map, and how its motors are emulated.
 
     Raises:
         ConfigError: with everything that is wrong in the map.
     """
     family = motor_families.of_file(file)
-    return family.load(file), EMULATED[family.driver]
+    return Loaded(family.of.load(file), family.of, EMULATED[family.driver])

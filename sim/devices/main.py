@@ -22,11 +22,11 @@ def main(parent_pid: str, file: str, folder: str, motion: str, *flaws: str) -> N
     """Load, build, run, close."""
     tie_to_parent(int(parent_pid))
     clock, stop = WallClock(), Stop()
-    wanted, family = families.loaded(Path(file))
+    wanted, family, emulated = families.loaded(Path(file))
     pairs = dict(flaw.split("=", 1) for flaw in flaws)
-    built = family.build(wanted, now_s=clock.now_s(), flaws=pairs, is_still=motion == STILL)
+    built = emulated.build(wanted, now_s=clock.now_s(), flaws=pairs, is_still=motion == STILL)
     paths = [family.path(Path(folder), index) for index in range(len(wanted.channels))]
-    with family.serve(paths, built, clock) as server:
+    with emulated.serve(paths, built, clock) as server:
         (Path(folder) / READY).touch()
         while not stop:
             server.serve(clock.now_s() + STOP_SEEN_EVERY_S)

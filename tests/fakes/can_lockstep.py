@@ -4,8 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from robot.clock import Clock, SimulatedClock
-from robot.drivers.motors.can.driver import CanMotors
-from robot.drivers.motors.can.emulated import buses_in
+from robot.drivers.motors.can.driver import FAMILY, CanMotors
 from robot.drivers.motors.can.joint_map import Bus, JointMap
 from robot.drivers.motors.can.ports import Heard, PythonCan
 from sim.plant import Plant
@@ -20,7 +19,7 @@ class Lockstep:
         self.buses = PlantBuses(
             plant, joints, folder, clock=SimulatedClock(), tell=self.lines.append
         )
-        self.joints = buses_in(joints, folder)
+        self.joints = FAMILY.emulated_in(joints, folder)
 
     def now_s(self) -> float:
         """The time of the plant."""

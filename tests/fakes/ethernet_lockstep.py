@@ -4,8 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from robot.clock import SimulatedClock
-from robot.drivers.motors.ethernet.driver import EthernetMotors
-from robot.drivers.motors.ethernet.emulated import boards_in
+from robot.drivers.motors.ethernet.driver import FAMILY, EthernetMotors
 from robot.drivers.motors.ethernet.joint_map import DriveMap
 from robot.drivers.motors.ethernet.ports import UdpPorts
 from sim.plant import Plant
@@ -21,7 +20,7 @@ class EthernetLockstep(Lockstep):
         self.buses = PlantBuses(
             plant, None, folder, clock=SimulatedClock(), tell=self.lines.append, boards=boards
         )
-        self.boards = boards_in(boards, folder)
+        self.boards = FAMILY.emulated_in(boards, folder)
 
     def motors(self, tell: Callable[[str], None] = lambda _: None) -> EthernetMotors:
         """A driver of all of them."""

@@ -4,8 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from robot.clock import SimulatedClock
-from robot.drivers.motors.can.driver import CanMotors
-from robot.drivers.motors.can.emulated import buses_in
+from robot.drivers.motors.can.driver import FAMILY, CanMotors
 from robot.drivers.motors.pwm.driver import PwmMotors
 from robot.drivers.motors.pwm_and_others import Maps, PwmAndOthers
 from sim.devices.pwm_bench import DirectChips
@@ -37,7 +36,7 @@ class PwmLockstep(Lockstep):
             plant, maps.can, folder, clock=SimulatedClock(), tell=self.lines.append,
             pulses=maps.servos,
         )  # fmt: skip
-        self.joints = buses_in(maps.can, folder)
+        self.joints = FAMILY.emulated_in(maps.can, folder)
 
     def all_motors(self, tell: Callable[[str], None] = lambda _: None) -> PwmAndOthers:
         """A driver of all of them."""

@@ -5,10 +5,9 @@ from pathlib import Path
 
 from robot.clock import SimulatedClock
 from robot.drivers.motor_bus import MotorBus
+from robot.drivers.motors.can import driver as can_driver
 from robot.drivers.motors.can.driver import CanMotors
-from robot.drivers.motors.can.emulated import buses_in
-from robot.drivers.motors.dynamixel.driver import DynamixelMotors
-from robot.drivers.motors.dynamixel.emulated import ports_in
+from robot.drivers.motors.dynamixel.driver import FAMILY, DynamixelMotors
 from robot.drivers.motors.dynamixel.ports import SerialPorts
 from robot.drivers.motors.servos_and_others import Maps, ServosAndOthers
 from sim.plant import Plant
@@ -25,8 +24,8 @@ class ServoLockstep(Lockstep):
             plant, maps.can, folder, clock=SimulatedClock(), tell=self.lines.append,
             servos=maps.servos,
         )  # fmt: skip
-        self.servos = ports_in(maps.servos, folder)
-        self.can = None if maps.can is None else buses_in(maps.can, folder)
+        self.servos = FAMILY.emulated_in(maps.servos, folder)
+        self.can = None if maps.can is None else can_driver.FAMILY.emulated_in(maps.can, folder)
 
     def all_motors(self, tell: Callable[[str], None] = lambda _: None) -> MotorBus:
         """A driver of all of them."""

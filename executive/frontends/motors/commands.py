@@ -304,7 +304,7 @@ def _joints(asked: OfMap, *, is_still: bool = False) -> Generator[tuple[Joints, 
         return
     flaws = _flaws(asked.fail or ())
     with REALITY.motors(path, flaws=flaws, is_still=is_still) as buses:
-        yield motor_tools.load_map(path, buses.channels, by=buses.interface), " (emulated)"
+        yield motor_tools.load_map(path, buses.channels), " (emulated)"
 
 
 def _flaws(fail: Sequence[str]) -> Mapping[str, str]:

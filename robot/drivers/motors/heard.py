@@ -29,7 +29,7 @@ class Heard:
         self.temperature_c: Array = np.full(count, np.nan)
         self.heard_s: Array = np.full(count, -np.inf)
         self.misses: npt.NDArray[np.intp] = np.zeros(count, np.intp)
-        self.lost = 0
+        self.lost: int = 0
         self._period_s = joints.period_s
         self._jumps = Jumps(fastest_rad_s)
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from robot.closing import Closing
 from robot.drivers.motors.claim import Claim
+from robot.drivers.motors.plant_behind import PlantBehind
 from robot.errors import DriverError
 from robot.se3 import Array
 
@@ -21,14 +22,17 @@ FIRST_PERIODS = 5
 class Life(Generic[L]):
     """Of one driver's lines; what motors are asked and told is up to who has them."""
 
-    def __init__(self, opens: Callable[[], L], claim: Claim) -> None:
+    def __init__(
+        self, opens: Callable[[], L], claim: Claim, behind: PlantBehind | None = None
+    ) -> None:
         """Nothing is opened.
 
         Args:
             opens: makes the lines.
             claim: of the right to command them.
+            behind: the simulated plant behind emulated lines: open for as long as they are.
         """
-        self._opens, self._claim = opens, claim
+        self._opens, self._claim, self._behind = opens, claim, behind
         self._lines: L | None = None
 
     @property
@@ -55,13 +59,15 @@ class Life(Generic[L]):
         Raises:
             DriverError: if a line cannot be opened, or as `ask`.
         """
+        if self._behind is not None:
+            self._behind.open()
         lines = self._opens()
-        lines.__enter__()
         try:
+            lines.__enter__()
             if asked := self._claim.is_free():
                 ask(lines)
         except DriverError:
-            lines.close()
+            self._close(lines)
             raise
         self._lines = lines
         return asked
@@ -99,8 +105,13 @@ class Life(Generic[L]):
             leave(lines)
         finally:
             self._claim.release()
-            lines.close()
+            self._close(lines)
             left()
+
+    def _close(self, lines: L) -> None:
+        lines.close()
+        if self._behind is not None:
+            self._behind.close()
 
 
 def unheard(

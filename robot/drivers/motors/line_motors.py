@@ -26,6 +26,7 @@ from robot.drivers.motors.life import Life, not_let_go, unheard
 from robot.drivers.motors.limiter import Limiter, Measured
 from robot.drivers.motors.motor_map import MotorMap
 from robot.drivers.motors.periods import Periods
+from robot.drivers.motors.plant_behind import PlantBehind
 from robot.drivers.motors.speed_check import SpeedCheck
 from robot.drivers.motors.transmission import Transmission
 from robot.drivers.motors.watching import SILENT_PERIODS, Watch
@@ -85,6 +86,7 @@ class LineMotors(Closing, Generic[M, L, H, W]):
         tell: Callable[[str], None] = untold,
         waits: bool = True,
         lets_go: bool = False,
+        behind: PlantBehind | None = None,
     ) -> None:
         """Know the motors; nothing is opened.
 
@@ -97,6 +99,7 @@ class LineMotors(Closing, Generic[M, L, H, W]):
                 same robot sets the pace.
             lets_go: whether motors are disabled at the end, and so give no torque, in place of
                 damping on by themselves: for one joint on a bench, not for a robot on its feet.
+            behind: the simulated plant behind emulated lines.
         """
         self.joints = joints
         self.alarms = Alarms()
@@ -105,12 +108,16 @@ class LineMotors(Closing, Generic[M, L, H, W]):
         self._clock, self._periods = clock, Periods(clock, joints.period_s)
         self._transmission, self.limiter = Transmission(joints), Limiter(joints)
         self._claim = Claim(self._claimed(joints))
-        self._life = Life(ports, self._claim)
+        self._life = Life(ports, self._claim, behind)
         self._is_armed = False
         self._sent: MotorCommand | None = None
         self._obeyed: MotorCommand | None = None
         self._holding = Holding()
         self._commanded = self._lost_before = 0
+        self._prepare()
+
+    def _prepare(self) -> None:
+        """Get ready what a family keeps beside; nothing is opened."""
 
     def _claimed(self, joints: M) -> Iterable[str]:
         """What its lines are called on this machine."""

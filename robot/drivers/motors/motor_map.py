@@ -126,6 +126,17 @@ def in_order(found: M, motors: Sequence[str]) -> M:
     return msgspec.structs.replace(found, joints={name: found.joints[name] for name in motors})
 
 
+def of_robot(found: M, motors: Sequence[str]) -> M:
+    """A map with its joints in a robot's motor order.
+
+    Raises:
+        ConfigError: if it has a joint that the robot has not, or lacks one that no other driver
+            moves (`others`).
+    """
+    others = getattr(found, "others", "")
+    return in_order(found, [one for one in motors if one in found.joints] if others else motors)
+
+
 def nameless(found: MotorMap) -> Iterator[Wrong]:
     """A map without a joint."""
     if not found.joints:

@@ -2,28 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from typing import NamedTuple, TypeVar
-
-import msgspec
+from typing import NamedTuple
 
 from robot.drivers.motor_bus import Capability, MotorBus
 from robot.drivers.motors.can import driver as can_driver
-from robot.drivers.motors.can import joint_map as can_map
 from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.ethernet import driver as ethernet_driver
-from robot.drivers.motors.ethernet import joint_map as drive_map
 from robot.drivers.motors.ethernet.joint_map import DriveMap
-from robot.drivers.motors.motor_map import MotorMap
 from robot.drivers.motors.pwm import driver as pwm_driver
-from robot.drivers.motors.pwm import joint_map
 from robot.drivers.motors.pwm.joint_map import PulseMap
 from robot.drivers.motors.servos_and_others import ServosAndOthers
 from robot.drivers.wiring import Wiring
 from robot.errors import ConfigError, Problem
 from robot.model.description import RobotDescription
-
-M = TypeVar("M", bound=MotorMap)
 
 
 class Maps(NamedTuple):
@@ -41,16 +32,11 @@ def maps(robot: RobotDescription) -> Maps:
         ConfigError: either says what cannot be meant, a motor is in neither, or a joint is to be
             moved by a hobby servo that has to be measured.
     """
-    servos = joint_map.beside(robot)
+    servos = pwm_driver.FAMILY.beside(robot)
     _refuse_measured(robot, servos)
-    rest = [name for name in robot.motor_names if name not in servos.joints]
-    if not rest:
-        return Maps(servos)
     if servos.others == "ethernet":
-        boards = _only(drive_map.load(robot.path().with_name(drive_map.FILE)), rest, "boards")
-        return Maps(servos, boards=drive_map.of_robot(boards, rest))
-    can = _only(can_map.load(robot.path().with_name(can_map.FILE)), rest, "buses")
-    return Maps(servos, can=can_map.of_robot(can, rest))
+        return Maps(servos, boards=ethernet_driver.FAMILY.rest(robot, servos.joints))
+    return Maps(servos, can=can_driver.FAMILY.rest(robot, servos.joints))
 
 
 def _refuse_measured(robot: RobotDescription, servos: PulseMap) -> None:
@@ -71,14 +57,6 @@ def _refuse_measured(robot: RobotDescription, servos: PulseMap) -> None:
         )
 
 
-def _only(found: M, rest: Collection[str], lines: str) -> M:
-    """A map of some of its joints, and of the lines that these are on."""
-    joints = {name: one for name, one in found.joints.items() if name in rest}
-    used = {one.line for one in joints.values()}
-    kept = {name: line for name, line in getattr(found, lines).items() if name in used}
-    return msgspec.structs.replace(found, joints=joints, **{lines: kept})
-
-
 def make(wiring: Wiring) -> MotorBus:
     """The motors that `pwm.yaml` beside the description names, and the others.
 
@@ -87,11 +65,13 @@ def make(wiring: Wiring) -> MotorBus:
         DriverError: the user does not let robots open one of the buses or talk to a board.
     """
     servos, can, boards = maps(wiring.robot)
-    moved = pwm_driver.wired(servos, wiring, waits=can is None and boards is None)
+    moved = pwm_driver.FAMILY.wired(servos, wiring, waits=can is None and boards is None)
     if can is not None:
-        return PwmAndOthers(wiring.robot.motor_names, moved, can_driver.wired(can, wiring))
+        return PwmAndOthers(wiring.robot.motor_names, moved, can_driver.FAMILY.wired(can, wiring))
     if boards is not None:
-        return PwmAndOthers(wiring.robot.motor_names, moved, ethernet_driver.wired(boards, wiring))
+        return PwmAndOthers(
+            wiring.robot.motor_names, moved, ethernet_driver.FAMILY.wired(boards, wiring)
+        )
     return moved
 
 

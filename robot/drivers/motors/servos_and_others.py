@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple, Protocol, Self
+from typing import Any, NamedTuple, Self, TypeAlias
 
-import msgspec
 import numpy as np
 import numpy.typing as npt
 
 from robot.closing import Closing
 from robot.drivers.motor_bus import Capability, MotorBus, MotorCommand, MotorState
 from robot.drivers.motors.can import driver as can_driver
-from robot.drivers.motors.can import joint_map as can_map
 from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.dynamixel import driver as dynamixel_driver
-from robot.drivers.motors.dynamixel import joint_map
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
-from robot.drivers.motors.limiter import FIELDS, Limiter
-from robot.drivers.motors.motor_map import MotorMap
+from robot.drivers.motors.limiter import FIELDS
+from robot.drivers.motors.line_motors import LineMotors
 from robot.drivers.wiring import Wiring
 from robot.errors import ConfigError, DriverError, Problem
 from robot.messages import MotorAlarm
@@ -41,16 +38,9 @@ def maps(robot: RobotDescription) -> Maps:
     Raises:
         ConfigError: either says what cannot be meant, a motor is in neither, or their rates differ.
     """
-    servos = joint_map.beside(robot)
-    rest = [name for name in robot.motor_names if name not in servos.joints]
-    if not rest:
-        return Maps(servos, None)
-    whole = can_map.load(robot.path().with_name(can_map.FILE))
-    joints = {name: one for name, one in whole.joints.items() if name not in servos.joints}
-    used = {one.bus for one in joints.values()}
-    buses = {name: bus for name, bus in whole.buses.items() if name in used}
-    can = can_map.of_robot(msgspec.structs.replace(whole, buses=buses, joints=joints), rest)
-    if can.rate_hz != servos.rate_hz:
+    servos = dynamixel_driver.FAMILY.beside(robot)
+    can = can_driver.FAMILY.rest(robot, servos.joints)
+    if can is not None and can.rate_hz != servos.rate_hz:
         text = f"servos are commanded at {servos.rate_hz} Hz, the motors on CAN at {can.rate_hz}"
         raise ConfigError([Problem(text, servos.file, suggestion="give both the same rate_hz")])
     return Maps(servos, can)
@@ -64,37 +54,14 @@ def make(wiring: Wiring) -> MotorBus:
         DriverError: the user does not let robots open one of the ports or buses.
     """
     servos, can = maps(wiring.robot)
-    moved = dynamixel_driver.wired(servos, wiring, waits=can is None)
+    moved = dynamixel_driver.FAMILY.wired(servos, wiring, waits=can is None)
     if can is None:
         return moved
-    others = can_driver.wired(can, wiring)
+    others = can_driver.FAMILY.wired(can, wiring)
     return ServosAndOthers(wiring.robot.motor_names, moved, others)
 
 
-class Others(MotorBus, Protocol):
-    """A driver of the joints of a map."""
-
-    @property
-    def joints(self) -> MotorMap:
-        """The map, in the order of every array."""
-        ...
-
-    @property
-    def limiter(self) -> Limiter:
-        """Of its joints."""
-        ...
-
-    def reset(self) -> None:
-        """Forget every alarm."""
-        ...
-
-
-class Servos(Others, Protocol):
-    """One that need not wait, and enables its motors before a command."""
-
-    def arm(self) -> None:
-        """Enable them, unless they are. Raises DriverError if one does not."""
-        ...
+AnyMotors: TypeAlias = LineMotors[Any, Any, Any, Any]
 
 
 class ServosAndOthers(Closing):
@@ -103,7 +70,7 @@ class ServosAndOthers(Closing):
     They have the shorter watchdogs, and bear the robot: they are written to and left first.
     """
 
-    def __init__(self, order: Sequence[str], servos: Servos, others: Others) -> None:
+    def __init__(self, order: Sequence[str], servos: AnyMotors, others: AnyMotors) -> None:
         """Know them; nothing is opened.
 
         Args:

@@ -2,63 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 
 import numpy as np
 
-from robot.clock import Clock
-from robot.drivers.motor_bus import MotorBus, MotorCommand
-from robot.drivers.motors.alarms import untold
+from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.can import arming, joint_map, watching
 from robot.drivers.motors.can.coding import Coding
-from robot.drivers.motors.can.emulated import EmulatedBuses, buses_in
 from robot.drivers.motors.can.fields import limits
 from robot.drivers.motors.can.frames import Frame
 from robot.drivers.motors.can.interview import interview
 from robot.drivers.motors.can.joint_map import JointMap
 from robot.drivers.motors.can.packed import packed, size_on
-from robot.drivers.motors.can.ports import Ports, PythonCan, check_buses
+from robot.drivers.motors.can.ports import Ports, PythonCan
 from robot.drivers.motors.can.reception import Reception
 from robot.drivers.motors.can.sending import TransmitQueue
 from robot.drivers.motors.can.values import ENABLED
 from robot.drivers.motors.can.verdicts import verdicts
 from robot.drivers.motors.findings import refuse_grave
+from robot.drivers.motors.line_family import LineFamily
 from robot.drivers.motors.line_motors import LineMotors
-from robot.drivers.motors.plant_behind import PlantClock
 from robot.drivers.motors.transmission import AtMotors
 from robot.drivers.motors.watching import SILENT_PERIODS
-from robot.drivers.wiring import Wiring
 
 INHERITS_PERIODS = 3
 """For so many at most replies are waited for of motors that another program left enabled."""
 
 STALE_CALLS = 16
 """More than an interface's receive buffer holds."""
-
-
-def make(wiring: Wiring) -> MotorBus:
-    """The motors that `can.yaml` beside the description names.
-
-    Raises:
-        ConfigError: the file says what cannot be meant, or lacks a motor of the robot.
-        DriverError: the user does not let robots open one of its buses.
-    """
-    return wired(joint_map.beside(wiring.robot), wiring)
-
-
-def wired(joints: JointMap, wiring: Wiring) -> CanMotors:
-    """The motors of a map, emulated where a process emulates them.
-
-    Raises:
-        DriverError: the user does not let robots open one of its buses.
-    """
-    if wiring.emulated is None:
-        check_buses(joints.buses)
-        clock = wiring.clock
-        return CanMotors(joints, clock, ports=lambda: PythonCan(joints.buses, clock), tell=print)
-    plant = wiring.simulated_plant()
-    there, time = buses_in(joints, wiring.emulated), PlantClock(plant)
-    return CanMotors(there, time, ports=lambda: EmulatedBuses(there, plant, time), tell=print)
 
 
 class CanMotors(LineMotors[JointMap, Ports, Reception, watching.Watch]):
@@ -71,18 +42,8 @@ class CanMotors(LineMotors[JointMap, Ports, Reception, watching.Watch]):
 
     title = "CAN"
 
-    def __init__(
-        self,
-        joints: JointMap,
-        clock: Clock,
-        *,
-        ports: Callable[[], Ports],
-        tell: Callable[[str], None] = untold,
-        waits: bool = True,
-        lets_go: bool = False,
-    ) -> None:
-        """Know the motors; nothing is opened."""
-        super().__init__(joints, clock, ports=ports, tell=tell, waits=waits, lets_go=lets_go)
+    def _prepare(self) -> None:
+        joints = self.joints
         self._motors, self._refreshes = list(joints.joints.values()), _refreshes(joints)
         self.queues = {
             bus: TransmitQueue(bus, size_on(is_fd=one.is_fd)) for bus, one in joints.buses.items()
@@ -254,3 +215,16 @@ def _refreshes(joints: JointMap) -> dict[str, bytes]:
         )
         for bus in joints.buses
     }
+
+
+FAMILY = LineFamily(
+    file=joint_map.FILE,
+    map=JointMap,
+    load=joint_map.load,
+    lines="buses",
+    at="channel",
+    stem="can",
+    emulated={"interface": "humanoid"},  # of python-can: `sim.devices.python_can`
+    ports=lambda joints, clock: PythonCan(joints.buses, clock),
+    motors=CanMotors,
+)

@@ -11,7 +11,7 @@ joints:
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Annotated, TypeAlias
@@ -27,7 +27,6 @@ from robot.drivers.motors.can.models import MODELS
 from robot.drivers.motors.can.values import Ranges
 from robot.drivers.motors.motor_map import LinkedMap, Motor, Wrong
 from robot.files import quantities as q
-from robot.model.description import RobotDescription
 
 FILE = "can.yaml"
 REPLIES_ABOVE = 16
@@ -177,24 +176,6 @@ def load(path: Path | str) -> JointMap:
     """
     checks = (_names, _mixed, _identifiers, _limits, _linkages, _loads)
     return motor_map.read(path, JointMap, begin_with="rate_hz: 500", checks=checks)
-
-
-def beside(robot: RobotDescription) -> JointMap:
-    """The map beside a robot's description, in its motor order.
-
-    Raises:
-        ConfigError: as `load` and `of_robot`.
-    """
-    return of_robot(load(robot.path().with_name(FILE)), robot.motor_names)
-
-
-def of_robot(found: JointMap, motors: Sequence[str]) -> JointMap:
-    """A map with its joints in a robot's motor order.
-
-    Raises:
-        ConfigError: if it lacks a motor, or has one that the robot has not.
-    """
-    return motor_map.in_order(found, motors)
 
 
 def _names(found: JointMap) -> Iterator[Wrong]:

@@ -6,7 +6,6 @@ import errno
 import select
 import socket
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import Any, NamedTuple, Protocol, Self
 
 import can
@@ -26,7 +25,6 @@ from robot.drivers.motors.can.packed import (
     wide,
 )
 from robot.errors import DriverError
-from robot.files import users_own
 from robot.printable import printable_line
 
 MOST_A_CALL = 64
@@ -39,21 +37,6 @@ class Heard(NamedTuple):
 
     bus: str
     frame: Frame | None
-
-
-def check_buses(buses: Mapping[str, Bus]) -> None:
-    """Whether the user lets robots open these: a joint map may be a stranger's, as a robot may.
-
-    Raises:
-        DriverError: the first that the user's own configuration does not name, with the cure.
-    """
-    for bus in buses.values():
-        users_own.check_device(bus.device)
-
-
-def socket_path(folder: Path, number: int) -> Path:
-    """Where a simulation listens for its bus of that number, counted from 0."""
-    return folder / f"can{number}"
 
 
 class Ports(Closing, Protocol):

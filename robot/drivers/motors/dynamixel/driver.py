@@ -9,55 +9,26 @@ late. What `write` returns is therefore torque alone.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import numpy.typing as npt
 
-from robot.clock import Clock
 from robot.drivers.motor_bus import MotorCommand
-from robot.drivers.motors.alarms import untold
-from robot.drivers.motors.dynamixel import arming, watching
+from robot.drivers.motors.dynamixel import arming, joint_map, watching
 from robot.drivers.motors.dynamixel.asking import Asking
 from robot.drivers.motors.dynamixel.control_table import WATCHDOG_STEP_S
-from robot.drivers.motors.dynamixel.emulated import EmulatedPorts, ports_in
 from robot.drivers.motors.dynamixel.interview import interview, verdicts
 from robot.drivers.motors.dynamixel.joint_map import ServoMap
-from robot.drivers.motors.dynamixel.ports import Ports, SerialPorts, check_ports
+from robot.drivers.motors.dynamixel.ports import Ports, SerialPorts
 from robot.drivers.motors.dynamixel.reception import Reception
 from robot.drivers.motors.dynamixel.talking import Talk
 from robot.drivers.motors.findings import refuse_grave
+from robot.drivers.motors.line_family import LineFamily
 from robot.drivers.motors.line_motors import LineMotors
-from robot.drivers.motors.plant_behind import PlantClock
-from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.se3 import Array
 
 STALE_PERIODS = 3
 """From so many on nothing is fed back of a servo that does not answer."""
-
-
-def wired(servos: ServoMap, wiring: Wiring, *, waits: bool) -> DynamixelMotors:
-    """The servos of a map, emulated where a process emulates them.
-
-    Args:
-        servos: the map.
-        wiring: of the process.
-        waits: as `DynamixelMotors` has it.
-
-    Raises:
-        DriverError: the user does not let robots open one of its ports.
-    """
-    if wiring.emulated is None:
-        check_ports(servos.ports)
-        return DynamixelMotors(
-            servos, wiring.clock, ports=lambda: SerialPorts(servos.ports), tell=print, waits=waits
-        )
-    plant = wiring.simulated_plant()
-    there, time = ports_in(servos, wiring.emulated), PlantClock(plant)
-    return DynamixelMotors(
-        there, time, ports=lambda: EmulatedPorts(there, plant), tell=print, waits=waits
-    )
 
 
 class DynamixelMotors(LineMotors[ServoMap, Ports, Reception, watching.Watch]):
@@ -66,18 +37,8 @@ class DynamixelMotors(LineMotors[ServoMap, Ports, Reception, watching.Watch]):
     title, losses, scheme = "Dynamixel", "answers missed", "serial"
     says_law = False
 
-    def __init__(
-        self,
-        joints: ServoMap,
-        clock: Clock,
-        *,
-        ports: Callable[[], Ports],
-        tell: Callable[[str], None] = untold,
-        waits: bool = True,
-        lets_go: bool = False,
-    ) -> None:
-        """Know the servos; nothing is opened."""
-        super().__init__(joints, clock, ports=ports, tell=tell, waits=waits, lets_go=lets_go)
+    def _prepare(self) -> None:
+        joints = self.joints
         servos = list(joints.joints.values())
         self._nm_a_step: Array = np.array([one.nm_a_step for one in servos])
         self._most: Array = np.array([float(one.most_steps) for one in servos])
@@ -230,3 +191,15 @@ class DynamixelMotors(LineMotors[ServoMap, Ports, Reception, watching.Watch]):
         if self._talk is None:
             raise DriverError("the motors are not open")
         return self._talk
+
+
+FAMILY = LineFamily(
+    file=joint_map.FILE,
+    map=ServoMap,
+    load=joint_map.load,
+    lines="ports",
+    at="device",
+    stem="dxl",
+    ports=lambda joints, _: SerialPorts(joints.ports),
+    motors=DynamixelMotors,
+)

@@ -12,7 +12,7 @@ others: can            # who moves the joints that are not here
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
@@ -29,7 +29,6 @@ from robot.drivers.motors.dynamixel.models import MODELS, Model
 from robot.drivers.motors.dynamixel.packets import MOST_ID
 from robot.drivers.motors.motor_map import Motor, MotorMap, Wrong
 from robot.files import quantities as q
-from robot.model.description import RobotDescription
 
 FILE = "dynamixel.yaml"
 KP_MOST, KD_MOST = 500.0, 5.0
@@ -143,26 +142,6 @@ def load(path: Path | str) -> ServoMap:
     """
     checks = (_names, _identifiers, _limits, _loads)
     return motor_map.read(path, ServoMap, begin_with="rate_hz: 200", checks=checks)
-
-
-def beside(robot: RobotDescription) -> ServoMap:
-    """The map beside a robot's description, in its motor order.
-
-    Raises:
-        ConfigError: as `load` and `of_robot`.
-    """
-    return of_robot(load(robot.path().with_name(FILE)), robot.motor_names)
-
-
-def of_robot(found: ServoMap, motors: Sequence[str]) -> ServoMap:
-    """A map with its joints in a robot's motor order.
-
-    Raises:
-        ConfigError: if it has a joint that the robot has not, or lacks one that no other driver
-            moves.
-    """
-    wanted = [name for name in motors if name in found.joints] if found.others else motors
-    return motor_map.in_order(found, wanted)
 
 
 def _names(found: ServoMap) -> Iterator[Wrong]:

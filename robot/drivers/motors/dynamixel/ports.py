@@ -14,19 +14,8 @@ import serial
 from robot.closing import Closing
 from robot.drivers.motors.dynamixel.joint_map import Port
 from robot.errors import DriverError
-from robot.files import users_own
 
 SYSFS = Path("/sys/bus/usb-serial/devices")
-
-
-def check_ports(ports: Mapping[str, Port]) -> None:
-    """Whether the user lets robots open these: a map may be a stranger's, as a robot may.
-
-    Raises:
-        DriverError: the first that the user's own configuration does not name, with the cure.
-    """
-    for port in ports.values():
-        users_own.check_device(port.device)
 
 
 class Ports(Closing, Protocol):

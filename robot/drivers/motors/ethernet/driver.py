@@ -6,16 +6,12 @@ Boards close the law of MIT mode themselves. Who only reads asks for the state, 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
 
 import numpy as np
 
-from robot.clock import Clock
-from robot.drivers.motor_bus import MotorBus, MotorCommand
-from robot.drivers.motors.alarms import untold
+from robot.drivers.motor_bus import MotorCommand
 from robot.drivers.motors.ethernet import arming, joint_map, watching
 from robot.drivers.motors.ethernet.datagrams import FLAGS_EXPIRED, ORDER, Kind, Reason, State
-from robot.drivers.motors.ethernet.emulated import EmulatedBoards, boards_in
 from robot.drivers.motors.ethernet.interview import (
     Answers,
     faults_of,
@@ -24,42 +20,15 @@ from robot.drivers.motors.ethernet.interview import (
     verdicts,
 )
 from robot.drivers.motors.ethernet.joint_map import DriveMap
-from robot.drivers.motors.ethernet.ports import Ports, UdpPorts, check_boards
+from robot.drivers.motors.ethernet.ports import Ports, UdpPorts
 from robot.drivers.motors.ethernet.reception import FASTEST_RAD_S, Reception
 from robot.drivers.motors.ethernet.talking import Question, Talk
 from robot.drivers.motors.findings import refuse_grave
+from robot.drivers.motors.line_family import LineFamily
 from robot.drivers.motors.line_motors import LineMotors
-from robot.drivers.motors.plant_behind import PlantClock
 from robot.drivers.motors.transmission import AtMotors
-from robot.drivers.wiring import Wiring
 from robot.errors import DriverError
 from robot.se3 import Array
-
-
-def make(wiring: Wiring) -> MotorBus:
-    """The motors that `ethernet.yaml` beside the description names.
-
-    Raises:
-        ConfigError: the file says what cannot be meant, or lacks a motor of the robot.
-        DriverError: the user does not let robots talk to one of its boards.
-    """
-    return wired(joint_map.beside(wiring.robot), wiring)
-
-
-def wired(joints: DriveMap, wiring: Wiring) -> EthernetMotors:
-    """The motors of a map, emulated where a process emulates them.
-
-    Raises:
-        DriverError: the user does not let robots talk to one of its boards.
-    """
-    if wiring.emulated is None:
-        check_boards(joints.boards)
-        return EthernetMotors(
-            joints, wiring.clock, ports=lambda: UdpPorts(joints.boards), tell=print
-        )
-    plant = wiring.simulated_plant()
-    there, time = boards_in(joints, wiring.emulated), PlantClock(plant)
-    return EthernetMotors(there, time, ports=lambda: EmulatedBoards(there, plant), tell=print)
 
 
 class EthernetMotors(LineMotors[DriveMap, Ports, Reception, watching.Watch]):
@@ -71,18 +40,8 @@ class EthernetMotors(LineMotors[DriveMap, Ports, Reception, watching.Watch]):
 
     title, scheme = "Ethernet", "udp"
 
-    def __init__(
-        self,
-        joints: DriveMap,
-        clock: Clock,
-        *,
-        ports: Callable[[], Ports],
-        tell: Callable[[str], None] = untold,
-        waits: bool = True,
-        lets_go: bool = False,
-    ) -> None:
-        """Know the motors; nothing is opened."""
-        super().__init__(joints, clock, ports=ports, tell=tell, waits=waits, lets_go=lets_go)
+    def _prepare(self) -> None:
+        joints = self.joints
         self.unsent = 0
         self._talk: Talk | None = None
         order = {name: index for index, name in enumerate(joints.joints)}
@@ -223,3 +182,15 @@ class EthernetMotors(LineMotors[DriveMap, Ports, Reception, watching.Watch]):
         if self._talk is None:
             raise DriverError("the motors are not open")
         return self._talk
+
+
+FAMILY = LineFamily(
+    file=joint_map.FILE,
+    map=DriveMap,
+    load=joint_map.load,
+    lines="boards",
+    at="address",
+    stem="udp",
+    ports=lambda joints, _: UdpPorts(joints.boards),
+    motors=EthernetMotors,
+)

@@ -11,7 +11,7 @@ joints:
 from __future__ import annotations
 
 import ipaddress
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, TypeAlias
 
@@ -23,7 +23,6 @@ from robot.drivers.motors.ethernet.datagrams import MOST_SLOTS
 from robot.drivers.motors.ethernet.load import BoardLink
 from robot.drivers.motors.motor_map import LinkedMap, Motor, Wrong
 from robot.files import quantities as q
-from robot.model.description import RobotDescription
 
 FILE = "ethernet.yaml"
 PORT = 4310
@@ -155,24 +154,6 @@ def load(path: Path | str) -> DriveMap:
     """
     checks = (_names, _addresses, _slots, _limits, _linkages, _loads)
     return motor_map.read(path, DriveMap, begin_with="rate_hz: 500", checks=checks)
-
-
-def beside(robot: RobotDescription) -> DriveMap:
-    """The map beside a robot's description, in its motor order.
-
-    Raises:
-        ConfigError: as `load` and `of_robot`.
-    """
-    return of_robot(load(robot.path().with_name(FILE)), robot.motor_names)
-
-
-def of_robot(found: DriveMap, motors: Sequence[str]) -> DriveMap:
-    """A map with its joints in a robot's motor order.
-
-    Raises:
-        ConfigError: if it lacks a motor, or has one that the robot has not.
-    """
-    return motor_map.in_order(found, motors)
 
 
 def _names(found: DriveMap) -> Iterator[Wrong]:

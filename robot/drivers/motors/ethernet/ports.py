@@ -14,22 +14,11 @@ from typing import Protocol, Self
 from robot.closing import Closing
 from robot.drivers.motors.ethernet.joint_map import Board
 from robot.errors import DriverError
-from robot.files import users_own
 
 MOST_A_CALL = 32
 """Datagrams of one board: whoever floods it must not hold up the others."""
 MOST_BYTES = 2048
 FULL = (errno.EAGAIN, errno.ENOBUFS)
-
-
-def check_boards(boards: Mapping[str, Board]) -> None:
-    """Whether the user lets robots talk to these: a map may be a stranger's, as a robot may.
-
-    Raises:
-        DriverError: the first that the user's own configuration does not name, with the cure.
-    """
-    for board in boards.values():
-        users_own.check_device(board.device)
 
 
 class Ports(Closing, Protocol):

@@ -19,23 +19,12 @@ from robot.closing import Closing
 from robot.drivers.motors.pwm.joint_map import Chip
 from robot.drivers.motors.pwm.pca9685 import Pca9685, SmBus
 from robot.errors import DriverError
-from robot.files import users_own
 
 INSTALL = "pip install 'humanoid-executive[pwm]'"
 LOOKS_EVERY = 10
 """Frames, between two looks at whether a chip is still awake."""
 ENDS_WITHIN_S = 2.0
 """Linux gives a bus that is held up again after 1 s, for most adapters."""
-
-
-def check_chips(chips: Mapping[str, Chip]) -> None:
-    """Whether the user lets robots open these: a map may be a stranger's, as a robot may.
-
-    Raises:
-        DriverError: the first bus that the user's own configuration does not name, with the cure.
-    """
-    for chip in chips.values():
-        users_own.check_device(chip.device)
 
 
 class Health(NamedTuple):

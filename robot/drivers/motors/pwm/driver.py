@@ -8,52 +8,27 @@ with its last pulse when the computer dies.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
-
 import numpy as np
 import numpy.typing as npt
 
-from robot.clock import Clock, WallClock
+from robot.clock import WallClock
 from robot.drivers.motor_bus import Capability, MotorCommand
-from robot.drivers.motors.alarms import Level, untold
+from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.heard import Heard
 from robot.drivers.motors.limiter import Measured
+from robot.drivers.motors.line_family import LineFamily
 from robot.drivers.motors.line_motors import LineMotors
-from robot.drivers.motors.plant_behind import PlantClock
-from robot.drivers.motors.pwm.chips import Chips, ThreadedChips, check_chips, real_bus
-from robot.drivers.motors.pwm.emulated import EmulatedChips, chips_in, emulated_bus
+from robot.drivers.motors.pwm import joint_map
+from robot.drivers.motors.pwm.chips import Chips, ThreadedChips, real_bus
+from robot.drivers.motors.pwm.emulated import emulated_bus
 from robot.drivers.motors.pwm.joint_map import PulseMap
 from robot.drivers.motors.pwm.pca9685 import OFF, TICKS, ticks
 from robot.drivers.motors.pwm.watching import Watch
 from robot.drivers.motors.transmission import Transmission
-from robot.drivers.wiring import Wiring
 from robot.se3 import Array
 
 ASSUMED, NO_PULSE = "assumed", "no_pulse"
 """What is known of a servo: it stands where it was sent, or that it is not sent anywhere."""
-
-
-def wired(joints: PulseMap, wiring: Wiring, *, waits: bool) -> PwmMotors:
-    """The servos of a map, emulated where a process emulates them.
-
-    Args:
-        joints: the map.
-        wiring: of the process.
-        waits: as `PwmMotors` has it.
-
-    Raises:
-        DriverError: the user does not let robots open one of its buses.
-    """
-    if wiring.emulated is None:
-        check_chips(joints.chips)
-        opens = partial(chips_of, joints)
-        return PwmMotors(joints, wiring.clock, ports=opens, tell=print, waits=waits)
-    plant = wiring.simulated_plant()
-    there, time = chips_in(joints, wiring.emulated), PlantClock(plant)
-    return PwmMotors(
-        there, time, ports=lambda: EmulatedChips(there, plant), tell=print, waits=waits
-    )
 
 
 def chips_of(joints: PulseMap) -> Chips:
@@ -95,18 +70,8 @@ class PwmMotors(LineMotors[PulseMap, Chips, Assumed, Watch]):
     title, scheme = "PWM", "i2c"
     brakes = False
 
-    def __init__(
-        self,
-        joints: PulseMap,
-        clock: Clock,
-        *,
-        ports: Callable[[], Chips],
-        tell: Callable[[str], None] = untold,
-        waits: bool = True,
-        lets_go: bool = True,
-    ) -> None:
-        """Know the servos; nothing is opened."""
-        super().__init__(joints, clock, ports=ports, tell=tell, waits=waits, lets_go=lets_go)
+    def _prepare(self) -> None:
+        joints = self.joints
         self._motors = list(joints.joints.values())
         self._frame_s = [joints.chips[one.chip].frame_s for one in self._motors]
         self._index = {name: index for index, name in enumerate(joints.joints)}
@@ -203,3 +168,15 @@ class PwmMotors(LineMotors[PulseMap, Chips, Assumed, Watch]):
         """Of a chip, from its first output that is ours to its last."""
         ours = {one.id: counts[self._index[name]] for name, one in self.joints.on(chip).items()}
         return [ours.get(channel, OFF) for channel in range(min(ours), max(ours) + 1)]
+
+
+FAMILY = LineFamily(
+    file=joint_map.FILE,
+    map=PulseMap,
+    load=joint_map.load,
+    lines="chips",
+    at="emulated",
+    stem="i2c",
+    ports=lambda joints, _: chips_of(joints),
+    motors=PwmMotors,
+)

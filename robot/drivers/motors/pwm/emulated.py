@@ -1,4 +1,4 @@
-"""Chips that a simulation emulates: the way to their buses, which are sockets."""
+"""The way to buses of chips that a simulation emulates, which are sockets."""
 
 from __future__ import annotations
 
@@ -7,17 +7,9 @@ import socket
 import struct
 from collections.abc import Sequence
 from contextlib import suppress
-from pathlib import Path
-from typing import Self
 
-import msgspec
-
-from robot.clock import WallClock
-from robot.drivers.motors.plant_behind import PlantBehind
-from robot.drivers.motors.pwm.chips import ThreadedChips
-from robot.drivers.motors.pwm.joint_map import Chip, PulseMap
+from robot.drivers.motors.pwm.joint_map import Chip
 from robot.drivers.motors.pwm.pca9685 import SmBus
-from robot.drivers.wiring import SimulatedPlant
 
 ASKED = struct.Struct("<BBB")
 """Address, register, bytes to read (0: what follows is written)."""
@@ -26,20 +18,6 @@ ANSWERED = struct.Struct("<H")
 WAITS_S = 1.0
 """As long as Linux waits for a bus that is held."""
 MOST = 64
-
-
-def bus_path(folder: Path, number: int) -> Path:
-    """Where a simulation listens for its chip of that number, counted from 0."""
-    return folder / f"i2c{number}"
-
-
-def chips_in(joints: PulseMap, folder: Path) -> PulseMap:
-    """A map whose chips are those that a simulation emulates."""
-    chips = {
-        name: msgspec.structs.replace(chip, emulated=str(bus_path(folder, index)))
-        for index, (name, chip) in enumerate(joints.chips.items())
-    }
-    return msgspec.structs.replace(joints, chips=chips)
 
 
 class SocketBus:
@@ -91,24 +69,3 @@ class SocketBus:
 def emulated_bus(chip: Chip) -> SmBus:
     """The bus of an emulated chip. Raises OSError if nobody listens."""
     return SocketBus(chip.emulated)
-
-
-class EmulatedChips(ThreadedChips):
-    """Chips of a simulated plant, which is opened and closed with them."""
-
-    def __init__(self, joints: PulseMap, plant: SimulatedPlant) -> None:
-        """Know them; nothing is opened."""
-        ours = {chip: [one.id for one in joints.on(chip).values()] for chip in joints.chips}
-        super().__init__(joints.chips, ours, WallClock(), opens=emulated_bus)
-        self._behind = PlantBehind(plant)
-
-    def __enter__(self) -> Self:
-        """Start all. Raises DriverError if the plant or a chip is not there."""
-        self._behind.open()
-        super().__enter__()
-        return self
-
-    def close(self) -> None:
-        """Switch all off, and close."""
-        super().close()
-        self._behind.close()

@@ -10,7 +10,7 @@ others: can            # who moves the joints that are not here
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Literal, TypeAlias
 
@@ -22,7 +22,6 @@ from robot.drivers.motors.pwm import load as bus_load
 from robot.drivers.motors.pwm import pca9685
 from robot.drivers.motors.pwm.pca9685 import CHANNELS, OSCILLATOR_HZ
 from robot.files import quantities as q
-from robot.model.description import RobotDescription
 
 FILE = "pwm.yaml"
 ANY_GAIN = 1e6
@@ -177,27 +176,6 @@ def load(path: Path | str) -> PulseMap:
     """
     checks = (_names, _places, _pulses, _limits, _loads)
     return motor_map.read(path, PulseMap, begin_with="chips:", checks=checks)
-
-
-def beside(robot: RobotDescription) -> PulseMap:
-    """The map beside a robot's description, in its motor order.
-
-    Raises:
-        ConfigError: as `load` and `of_robot`.
-    """
-    return of_robot(load(robot.path().with_name(FILE)), robot)
-
-
-def of_robot(found: PulseMap, robot: RobotDescription) -> PulseMap:
-    """A map with its joints in a robot's motor order.
-
-    Raises:
-        ConfigError: if it has a joint that the robot has not, or lacks one that no other driver
-            moves.
-    """
-    motors: Sequence[str] = robot.motor_names
-    wanted = [name for name in motors if name in found.joints] if found.others else motors
-    return motor_map.in_order(found, wanted)
 
 
 def _names(found: PulseMap) -> Iterator[Wrong]:

@@ -201,12 +201,13 @@ def test_a_bus_of_a_map_is_opened_only_if_the_user_lets_robots_open_it(file, com
 
 
 def test_the_map_that_is_shipped_is_for_every_motor_of_juno():
+    from robot.drivers.motors import motor_map
     from robot.drivers.motors.can import joint_map
     from robot.model import description
 
     juno = description.load("juno")
     found = joint_map.load(juno.path().with_name(joint_map.FILE))
-    assert list(joint_map.of_robot(found, juno.motor_names).joints) == list(juno.motor_names)
+    assert list(motor_map.of_robot(found, juno.motor_names).joints) == list(juno.motor_names)
     for name, motor in juno.motors.items():
         assert found.joints[name].torque_limit_nm == motor.torque_limit_nm
         assert found.joints[name].velocity_limit_rad_s == motor.velocity_limit_rad_s

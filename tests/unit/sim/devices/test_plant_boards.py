@@ -6,7 +6,9 @@ import pytest
 
 from robot.control.loop import ControlLoop
 from robot.drivers.body_sample import BodySample
+from robot.drivers.motors import motor_map
 from robot.drivers.motors.ethernet import joint_map
+from robot.drivers.motors.ethernet.driver import FAMILY
 from robot.messages import Walk
 from robot.model import description
 from sim import world
@@ -24,7 +26,7 @@ def robot():
 @pytest.fixture
 def rig(robot, tmp_path):
     """Juno's map, some of its motors mounted the other way round, behind belts, off by an angle."""
-    found = joint_map.beside(robot)
+    found = FAMILY.beside(robot)
     other = {
         "left_elbow": {"sign": -1, "offset_rad": 0.4},
         "right_elbow": {"gear": 1.5, "offset_rad": -0.2},
@@ -105,7 +107,7 @@ def test_it_walks_over_a_network_that_loses_every_twentieth_exchange(robot, rig)
 def test_it_walks_on_ankles_of_two_rods_and_a_waist_of_a_differential(robot, tmp_path):
     path = tmp_path / "ethernet.yaml"
     path.write_text(robot.path().with_name("ethernet.yaml").read_text() + ANKLES)
-    boards = joint_map.of_robot(joint_map.load(path), robot.motor_names)
+    boards = motor_map.of_robot(joint_map.load(path), robot.motor_names)
     plant = Plant(world.load("empty"), robot, seed=0, noisy=False)
     rig = EthernetLockstep(plant, boards, tmp_path)
     loop = ControlLoop(robot)

@@ -7,7 +7,9 @@ import pytest
 from robot.control.loop import ControlLoop
 from robot.drivers.body_sample import BodySample
 from robot.drivers.motor_bus import MotorCommand
+from robot.drivers.motors import motor_map
 from robot.drivers.motors.can import joint_map
+from robot.drivers.motors.can.driver import FAMILY
 from robot.drivers.motors.can.joint_map import MotorRanges
 from robot.errors import ConfigError, DriverError
 from robot.messages import Walk
@@ -27,7 +29,7 @@ def robot():
 @pytest.fixture
 def rig(robot, tmp_path):
     """Juno's map, some of its motors mounted the other way round, behind belts, off by an angle."""
-    found = joint_map.beside(robot)
+    found = FAMILY.beside(robot)
     other = {
         "left_elbow": {"sign": -1, "offset_rad": 0.4},
         "right_elbow": {"gear": 1.5, "offset_rad": -0.2, "velocity_limit_rad_s": 6.0},
@@ -44,7 +46,7 @@ def rig(robot, tmp_path):
 @pytest.fixture
 def rig_on_robstrides(robot, tmp_path):
     """Juno's legs on RobStrides, the rest on Damiaos as proposed."""
-    found = joint_map.beside(robot)
+    found = FAMILY.beside(robot)
     legs = {"DM10010L": ("RS04", 15.0, 120.0), "DM8009": ("RS03", 20.0, 60.0)}
     joints: dict[str, joint_map.JointMotor] = {}
     for name, one in found.joints.items():
@@ -64,7 +66,7 @@ def rig_on_robstrides(robot, tmp_path):
 @pytest.fixture
 def rig_on_moteus(robot, tmp_path):
     """Juno's legs on moteus over CAN FD, the rest on Damiaos as proposed."""
-    found = joint_map.beside(robot)
+    found = FAMILY.beside(robot)
     legs = {"left_leg", "right_leg", "feet"}
     output = MotorRanges(position_rad=12.5, velocity_rad_s=25.0, torque_nm=140.0)
     joints = {
@@ -275,7 +277,7 @@ def test_a_second_program_asks_for_nothing_while_the_first_commands(robot, rig):
 
 
 def test_what_nobody_emulates_is_refused(robot):
-    found = joint_map.beside(robot)
+    found = FAMILY.beside(robot)
     old = MotorRanges(position_rad=12.5, velocity_rad_s=50.0, torque_nm=25.0)
     joints = {
         **found.joints,
@@ -309,7 +311,7 @@ def test_it_walks_on_can_with_ankles_of_two_rods_and_a_waist_of_a_differential(r
     # Farther down these rods come near to a line with their cranks, and want 200 N m.
     text = text.replace("lower_rad: -1.2, upper_rad: 0.7", "lower_rad: -0.9, upper_rad: 0.7")
     path.write_text(text.replace("velocity_limit_rad_s: 12", "velocity_limit_rad_s: 11") + ANKLES)
-    joints = joint_map.of_robot(joint_map.load(path), robot.motor_names)
+    joints = motor_map.of_robot(joint_map.load(path), robot.motor_names)
     plant = Plant(world.load("empty"), robot, seed=0, noisy=False)
     rig = Lockstep(plant, joints, tmp_path)
     loop = ControlLoop(robot)

@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from robot.drivers.motors.can import joint_map, load
+from robot.drivers.motors import motor_map
+from robot.drivers.motors.can import load
 from robot.errors import ConfigError
 from tests.fakes.can_rig import ARM, arm
 
@@ -71,9 +72,9 @@ def test_a_map_without_a_joint_is_refused(tmp_path):
 def test_a_robots_motor_order_is_that_of_every_array(tmp_path):
     found = arm(tmp_path)
     names = ["wrist", "shoulder", "elbow"]
-    assert list(joint_map.of_robot(found, names).joints) == names
+    assert list(motor_map.of_robot(found, names).joints) == names
     with pytest.raises(ConfigError) as caught:
-        joint_map.of_robot(found, ["wrist", "shoulder", "elbows"])
+        motor_map.of_robot(found, ["wrist", "shoulder", "elbows"])
     assert "no motor moves the joint 'elbows'" in str(caught.value)
     assert "the robot has no motor 'elbow'" in str(caught.value)
 

@@ -18,7 +18,7 @@ def test_a_map_is_read_with_what_it_leaves_out(tmp_path):
     assert list(found.joints) == ["shoulder", "elbow", "wrist"]
     assert (found.watchdog_s, found.watchdog_steps, found.others) == (0.04, 2, "")
     assert found.ports["arm"].latency_s == 0.001
-    assert motor_families.of_file(tmp_path / "dynamixel.yaml").map is type(found)
+    assert motor_families.of_file(tmp_path / "dynamixel.yaml").of.map is type(found)
     for name, one in found.joints.items():
         assert one.most_steps * abs(one.nm_a_step) <= one.torque_limit_nm, name
 

@@ -2,7 +2,8 @@
 
 import pytest
 
-from robot.drivers.motors.ethernet import joint_map, load
+from robot.drivers.motors.ethernet import load
+from robot.drivers.motors.ethernet.driver import FAMILY
 from robot.errors import ConfigError
 from robot.model import description
 from tests.fakes.ethernet_rig import ARM, arm
@@ -65,6 +66,6 @@ def test_a_link_of_100_mbit_is_hardly_busy_and_its_bits_are_those_of_the_frames(
 
 def test_junos_proposed_map_fits_it(tmp_path):
     juno = description.load("juno")
-    joints = joint_map.beside(juno)
+    joints = FAMILY.beside(juno)
     assert list(joints.joints) == list(juno.motor_names)
     assert max(joints.load(board) for board in joints.boards) < 0.02

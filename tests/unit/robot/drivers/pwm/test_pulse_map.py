@@ -5,7 +5,7 @@ import pytest
 
 from robot.bringup import motor_choice
 from robot.drivers.motors import pwm_and_others
-from robot.drivers.motors.pwm import joint_map
+from robot.drivers.motors.pwm.driver import FAMILY
 from robot.errors import ConfigError
 from robot.model import description
 from tests.fakes.pwm_rig import HEAD, head
@@ -89,4 +89,4 @@ def test_a_hand_may_go_by_one_and_the_rest_be_behind_ethernet(tmp_path):
     assert found.can is None
     assert found.boards is not None
     assert len(found.boards.joints) == 30
-    assert joint_map.beside(robot).others == "ethernet"
+    assert FAMILY.beside(robot).others == "ethernet"
