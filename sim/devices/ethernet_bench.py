@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Self, cast
+from typing import cast
 
 from robot.clock import SimulatedClock
-from robot.closing import Closing
 from robot.drivers.motors.ethernet.joint_map import DriveMap, JointDrive
 from robot.drivers.motors.linkage import Needed, middle, needed
-from robot.errors import ConfigError, DriverError
+from robot.errors import ConfigError
+from sim.devices.direct_lines import DirectLines
 from sim.devices.ethernet_board import FLAWS, OVER_CURRENT, Board, Drive, Flaw, Kind
 from sim.devices.ethernet_cable import Cable
 from sim.devices.flaws import unknown
@@ -118,28 +118,24 @@ def suffer(drive: Drive, flaw: Flaw) -> None:
             pass
 
 
-class DirectPorts(Closing):
-    """A driver's ways straight to emulated boards, in simulated time: no socket, no process.
+class DirectPorts(DirectLines[EthernetBench]):
+    """A driver's ways straight to emulated boards.
 
     Attributes:
-        gone: boards that a test unplugged, and why they are gone.
         strangers: datagrams of a test that came from somewhere else.
         full: boards for which the system takes nothing.
     """
 
     def __init__(self, bench: EthernetBench, clock: SimulatedClock) -> None:
         """Know the bench; nothing is opened."""
-        self.gone: dict[str, str] = {}
+        super().__init__(bench, clock)
         self.strangers: dict[str, int] = dict.fromkeys(bench.cables, 0)
         self.full: set[str] = set()
-        self._bench, self._clock = bench, clock
-        self._is_open = False
         self._kept: list[tuple[str, bytes]] = []
 
-    def __enter__(self) -> Self:
-        """Open them."""
-        self._is_open = True
-        return self
+    @property
+    def _count(self) -> int:
+        return len(self._bench.cables)
 
     def inject(self, board: str, data: bytes) -> None:
         """A datagram that pretends to be a board's."""
@@ -168,11 +164,3 @@ class DirectPorts(Closing):
         self.play()
         came, self._kept = self._kept, []
         return [(name, data) for name, data in came if name not in self.gone]
-
-    def _check(self) -> None:
-        if not self._is_open or len(self.gone) == len(self._bench.cables):
-            raise DriverError("there is no way to any board")
-
-    def close(self) -> None:
-        """Close them."""
-        self._is_open = False

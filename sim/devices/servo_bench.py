@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Self, cast
+from typing import cast
 
 from robot.clock import SimulatedClock
-from robot.closing import Closing
 from robot.drivers.motors.dynamixel.joint_map import JointServo, ServoMap
-from robot.errors import ConfigError, DriverError
+from robot.errors import ConfigError
+from sim.devices.direct_lines import DirectLines
 from sim.devices.dynamixel import FLAWS, Flaw, Kind, Servo
 from sim.devices.flaws import unknown
 from sim.devices.serial_line import Line
@@ -98,24 +98,17 @@ def _servo(joint: JointServo, now_s: float, *, swing_rad_s: float, ahead_rad: fl
     return servo_on(joint, shaft, now_s)
 
 
-class DirectPorts(Closing):
-    """A driver's ports straight onto emulated lines, in simulated time: no terminal, no process.
-
-    Attributes:
-        gone: ports that a test unplugged, and why they are gone.
-    """
+class DirectPorts(DirectLines[ServoBench]):
+    """A driver's ports straight onto emulated lines."""
 
     def __init__(self, bench: ServoBench, clock: SimulatedClock) -> None:
         """Know the bench; nothing is opened."""
-        self.gone: dict[str, str] = {}
-        self._bench, self._clock = bench, clock
-        self._is_open = False
+        super().__init__(bench, clock)
         self._kept: dict[str, bytes] = {}
 
-    def __enter__(self) -> Self:
-        """Open them."""
-        self._is_open = True
-        return self
+    @property
+    def _count(self) -> int:
+        return len(self._bench.lines)
 
     def write(self, port: str, data: bytes) -> None:
         """Hand bytes over."""
@@ -140,11 +133,3 @@ class DirectPorts(Closing):
         now_s, line = self._clock.now_s(), self._bench.lines[port]
         self._kept[port] = self._kept.get(port, b"") + line.advance(now_s)
         line.live(now_s)
-
-    def _check(self) -> None:
-        if not self._is_open or len(self.gone) == len(self._bench.lines):
-            raise DriverError("all ports of the servos are gone")
-
-    def close(self) -> None:
-        """Close them."""
-        self._is_open = False

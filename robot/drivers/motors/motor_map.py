@@ -14,6 +14,8 @@ from robot.errors import ConfigError
 from robot.files import config, yaml_nodes
 
 WATCHDOG_PERIODS = 3
+KP_MOST, KD_MOST = 500.0, 5.0
+"""Of a motor whose family says nothing else: what frames of MIT mode can say at most."""
 
 Wrong: TypeAlias = tuple[str, str, str]
 """A place in the file, what is wrong there, the cure."""
@@ -34,6 +36,16 @@ class Motor(Mounted, frozen=True, kw_only=True, forbid_unknown_fields=True):
     def line(self) -> str:
         """The bus or port that it is on."""
         raise NotImplementedError
+
+    @property
+    def kp_most(self) -> float:
+        """The stiffest that it is made, at the joint: N m/rad."""
+        return KP_MOST * self.gear * self.gear
+
+    @property
+    def kd_most(self) -> float:
+        """The most that it is damped, at the joint: N m s/rad."""
+        return KD_MOST * self.gear * self.gear
 
 
 class MotorMap(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

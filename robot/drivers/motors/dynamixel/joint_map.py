@@ -31,8 +31,6 @@ from robot.drivers.motors.motor_map import Motor, MotorMap, Wrong
 from robot.files import quantities as q
 
 FILE = "dynamixel.yaml"
-KP_MOST, KD_MOST = 500.0, 5.0
-"""Of a servo: as stiff as a motor whose own firmware closes the loop, and no stiffer."""
 
 Identifier: TypeAlias = Annotated[int, msgspec.Meta(ge=0, le=MOST_ID)]
 Baud: TypeAlias = Annotated[int, msgspec.Meta(ge=9600, le=4_500_000, extra={"unit": "bit/s"})]
@@ -88,16 +86,6 @@ class JointServo(Motor, frozen=True, kw_only=True, forbid_unknown_fields=True):
     def most_steps(self) -> int:
         """Steps of current within the joint's limit of torque."""
         return min(self.sold.current_steps, int(self.torque_limit_nm / abs(self.nm_a_step) + 1e-9))
-
-    @property
-    def kp_most(self) -> float:
-        """The stiffest that it is made, at the joint."""
-        return KP_MOST * self.gear * self.gear
-
-    @property
-    def kd_most(self) -> float:
-        """The most that it is damped, at the joint."""
-        return KD_MOST * self.gear * self.gear
 
 
 class ServoMap(MotorMap, frozen=True, kw_only=True, forbid_unknown_fields=True):

@@ -8,8 +8,9 @@ import numpy as np
 
 from robot.drivers.motors.ethernet import datagrams
 from robot.drivers.motors.ethernet.datagrams import ORDER, Datagram, Kind, mask_of
-from robot.drivers.motors.ethernet.joint_map import KD_MOST, DriveMap, JointDrive
+from robot.drivers.motors.ethernet.joint_map import DriveMap, JointDrive
 from robot.drivers.motors.ethernet.talking import WAITS_S, Question, Talk
+from robot.drivers.motors.motor_map import KD_MOST
 from robot.errors import DriverError
 
 DAMPING_NM_S = 2.0

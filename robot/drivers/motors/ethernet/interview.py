@@ -23,10 +23,11 @@ from robot.drivers.motors.ethernet.datagrams import (
     mask_of,
     slots_of,
 )
-from robot.drivers.motors.ethernet.joint_map import KD_MOST, KP_MOST, DriveMap, JointDrive
+from robot.drivers.motors.ethernet.joint_map import DriveMap, JointDrive
 from robot.drivers.motors.ethernet.talking import Question, Talk
 from robot.drivers.motors.findings import Finding, Said, findings
 from robot.drivers.motors.linkage import Needed, needed
+from robot.drivers.motors.motor_map import KD_MOST, KP_MOST
 from robot.drivers.motors.transmission import Motion, joints_of, placed, where_wrong
 
 SAME_SHARE = 0.001

@@ -26,8 +26,6 @@ from robot.files import quantities as q
 
 FILE = "ethernet.yaml"
 PORT = 4310
-KP_MOST, KD_MOST = 500.0, 5.0
-"""Of a motor, where its board takes as much: what frames of MIT mode can say at most."""
 
 Number: TypeAlias = Annotated[int, msgspec.Meta(ge=0, le=254)]
 Slot: TypeAlias = Annotated[int, msgspec.Meta(ge=0, le=MOST_SLOTS - 1)]
@@ -99,16 +97,6 @@ class JointDrive(Motor, frozen=True, kw_only=True, forbid_unknown_fields=True):
     def line(self) -> str:
         """Its board."""
         return self.board
-
-    @property
-    def kp_most(self) -> float:
-        """The stiffest that it is made, at the joint."""
-        return KP_MOST * self.gear * self.gear
-
-    @property
-    def kd_most(self) -> float:
-        """The most that it is damped, at the joint."""
-        return KD_MOST * self.gear * self.gear
 
 
 class DriveMap(LinkedMap, frozen=True, kw_only=True, forbid_unknown_fields=True):
