@@ -87,6 +87,7 @@ class Network:
                 if not self.is_dead:  # nobody is told
                     other.sendall(data)
                     self.answers += not is_asked
+        with suppress(OSError):  # also where one end was torn down: a network tells the other
             other.shutdown(socket.SHUT_WR)
 
     def cut(self):
