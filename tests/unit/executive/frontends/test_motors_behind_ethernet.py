@@ -38,7 +38,7 @@ def test_boards_say_which_drives_they_have_and_what_these_measure(file):
         assert row["winding_c"] == pytest.approx(25.0, abs=1.0)
 
 
-@pytest.mark.live
+@pytest.mark.usefixtures("workbench")
 def test_a_check_names_what_disagrees_with_its_cure_and_fails(file):
     flaws = ("--fail", "elbow=weak", "--fail", "wrist=wrong_board")
     result = motors("check", "--map", file, "--emulated", "--for", 1, *flaws)
@@ -52,7 +52,7 @@ def test_a_check_names_what_disagrees_with_its_cure_and_fails(file):
         assert said in result.stdout
 
 
-@pytest.mark.live
+@pytest.mark.usefixtures("workbench")
 def test_jog_zero_watch_and_log_say_what_they_did(file, tmp_path):
     moved = motors(
         "jog", "elbow", "--by", 0.2, "--torque", 0.4, "--map", file, "--emulated", "--json"

@@ -47,7 +47,7 @@ def test_chips_are_found_and_servos_have_nothing_to_say(file):
     assert "The chips of 3 servos answer (emulated); the servos say nothing." in checked.stdout
 
 
-@pytest.mark.live
+@pytest.mark.usefixtures("workbench")
 @pytest.mark.parametrize(("flaw", "said"), [("silent", "Remote I/O"), ("stuck", "timed out")])
 def test_a_chip_that_does_not_answer_is_said_with_its_cure(file, flaw, said):
     result = motors("read", "--map", file, "--emulated", "--fail", f"yaw={flaw}")
@@ -56,7 +56,7 @@ def test_a_chip_that_does_not_answer_is_said_with_its_cure(file, flaw, said):
     assert "i2cdetect -y 1" in str(result.exception)
 
 
-@pytest.mark.live
+@pytest.mark.usefixtures("workbench")
 @pytest.mark.parametrize("command", [("jog", "yaw", "--by", 0.1), ("zero", "yaw")])
 def test_what_takes_a_measurement_is_refused(file, command):
     result = motors(*command, "--map", file, "--emulated")

@@ -26,7 +26,7 @@ def motors(*words):
     return CliRunner().invoke(app, ["motors", *map(str, words)])
 
 
-@pytest.mark.live
+@pytest.mark.usefixtures("workbench")
 def test_a_check_of_sound_motors_says_so_and_that_they_are_emulated(file):
     result = motors("check", "--map", file, "--emulated", "--for", 1)
     assert result.exit_code == 0, result.output
@@ -34,7 +34,7 @@ def test_a_check_of_sound_motors_says_so_and_that_they_are_emulated(file):
     assert "40%" in result.stdout  # 3 joints, 270 µs each, 500 times a second
 
 
-@pytest.mark.live
+@pytest.mark.usefixtures("workbench")
 def test_a_check_names_what_disagrees_with_its_cure_and_fails(file):
     flaws = ("--fail", "elbow=wrong_range", "--fail", "wrist=twin", "--fail", "shoulder=silent")
     result = motors("check", "--map", file, "--emulated", "--for", 1, *flaws)
@@ -49,7 +49,7 @@ def test_a_check_names_what_disagrees_with_its_cure_and_fails(file):
         assert said in result.stdout
 
 
-@pytest.mark.live
+@pytest.mark.usefixtures("workbench")
 def test_a_check_compares_speeds_with_positions(file):
     result = motors("check", "--map", file, "--emulated", "--fail", "wrist=slow_speed", "--json")
     assert result.exit_code == 1
@@ -80,7 +80,7 @@ def test_scan_read_and_watch_tell_who_is_there_and_what_they_measure(file):
     assert "all is well (emulated)" in watched.stdout
 
 
-@pytest.mark.live
+@pytest.mark.usefixtures("workbench")
 def test_every_command_knows_moteus_on_a_bus_of_can_fd(tmp_path):
     file = tmp_path / "arm.yaml"
     file.write_text(MOTEUS)
@@ -114,7 +114,7 @@ def test_a_bus_of_can_fd_that_is_not_there_is_set_up_with_both_rates():
     assert told in str(result.exception)
 
 
-@pytest.mark.live
+@pytest.mark.usefixtures("workbench")
 def test_two_that_answer_to_one_identifier_are_seen_by_a_scan(file):
     scanned = motors("scan", "--map", file, "--emulated", "--up-to", 5, "--fail", "elbow=twin")
     assert scanned.exit_code == 1
@@ -154,7 +154,7 @@ def test_a_bus_that_is_not_there_is_an_error_with_the_command_that_sets_it_up():
     assert "ip link set nocan7 up type can bitrate 1000000" in str(result.exception)
 
 
-@pytest.mark.live
+@pytest.mark.usefixtures("workbench")
 def test_jog_zero_and_log_say_what_they_did_to_emulated_motors(file, tmp_path):
     moved = motors("jog", "elbow", "--by", 0.2, "--map", file, "--emulated", "--json")
     assert moved.exit_code == 0, moved.output
@@ -213,7 +213,7 @@ def test_the_map_that_is_shipped_is_for_every_motor_of_juno():
         assert found.joints[name].velocity_limit_rad_s == motor.velocity_limit_rad_s
 
 
-@pytest.mark.live
+@pytest.mark.usefixtures("workbench")
 def test_identify_says_what_a_worn_joint_is_like_and_writes_it_only_where_it_is_told(
     file, tmp_path
 ):

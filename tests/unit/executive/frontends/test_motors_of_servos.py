@@ -34,7 +34,7 @@ def test_what_servos_measure_is_read_once(file):
         assert row["supply_v"] == pytest.approx(12.0)
 
 
-@pytest.mark.live
+@pytest.mark.usefixtures("workbench")
 def test_a_check_names_what_disagrees_with_its_cure_and_fails(file):
     flaws = ("--fail", "elbow=wrong_model", "--fail", "wrist=twin", "--fail", "shoulder=silent")
     result = motors("check", "--map", file, "--emulated", "--for", 1, *flaws)
@@ -54,7 +54,7 @@ def test_a_flaw_that_there_is_not_is_refused(file):
     assert "did you mean 'silent'" in str(result.exception)
 
 
-@pytest.mark.live
+@pytest.mark.usefixtures("workbench")
 def test_jog_zero_and_log_say_what_they_did_to_emulated_servos(file, tmp_path):
     moved = motors(
         "jog", "elbow", "--by", 0.2, "--torque", 0.4, "--map", file, "--emulated", "--json"
