@@ -70,9 +70,9 @@ def test_a_run_that_is_nested_as_none_is_keeps_no_other_one(capsys, monkeypatch)
     run("b", days_ago=2)
     top = Path.cwd()
     monkeypatch.chdir(deep)
-    for _ in range(2500):
-        Path("d").mkdir()
-        os.chdir("d")
+    for _ in range(1200):
+        Path("down").mkdir()
+        os.chdir("down")
     os.chdir(top)
     try:
         assert prune(keep=0, dry_run=True) == ExitStatus.DONE

@@ -30,6 +30,8 @@ from robot.shots import Shot
 from tests.fakes.waiting import HANG_S
 
 NONCE = "0123456789abcdef"
+CLOSES_S = 0.5
+"""What a page that reads nothing waits for the other end's farewell: its own ends behind what came."""
 BASE = (0.0, 0.0, 0.6, 1.0, 0.0, 0.0, 0.0)
 
 
@@ -85,8 +87,9 @@ class Visitor:
 
     async def __aenter__(self):
         self.socket = await connect(
-            f"ws://{self.host}/", origin=self.origin or None, max_size=None, proxy=None
-        )
+            f"ws://{self.host}/", origin=self.origin or None, max_size=None, proxy=None,
+            close_timeout=CLOSES_S,
+        )  # fmt: skip
         asked = json.loads(await self.socket.recv())["nonce"]
         code = proof(self.token, PAGE, self.host, asked, NONCE)
         await self.say(proof=code, nonce=NONCE)
