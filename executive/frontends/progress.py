@@ -12,6 +12,7 @@ from rich.text import Text
 from executive.blackboard import GOAL, HEALTH, HELD, SAID, STOP
 from executive.engine.executive import Executive
 from executive.frontends.output import Screen, say
+from executive.frontends.recurring import Recurring
 from executive.journal import words
 from executive.journal.dumps.text import MARKS
 from executive.journal.journal import Event
@@ -42,13 +43,21 @@ class Lines(Silent):
 
     def __init__(self, executive: Executive) -> None:
         """Print the journal's events as they come."""
+        self._recurring, self._heard_s = Recurring(), 0.0
         executive.journal.listen(self._heard)
 
     def _heard(self, event: Event) -> None:
-        told = sentence(event)
-        if told:
-            line = f"[{event.t_s:7.2f} s] {told}"
-            say(line)
+        self._heard_s = event.t_s
+        for told in self._recurring.news(event, sentence(event)):
+            self._say(told)
+
+    def _say(self, told: str) -> None:
+        say(f"[{self._heard_s:7.2f} s] {told}")
+
+    def close(self) -> None:
+        """Tell what nobody has said to be over."""
+        for told in self._recurring.rest():
+            self._say(told)
 
 
 class LiveTree(Silent):

@@ -30,6 +30,8 @@ Ending = Literal["done", "failed", "stopped", "under way", "cut off", "idle"]
 MAX_BYTES = 1_000_000
 """Of a summary or a header; a mission's has 3 kB."""
 MOST_OF_A_LINE = 1_000
+MOST_NAMED = 5
+"""Runs that a name may mean, in an error."""
 LAST_S = 2.5e11
 """The year 9892: what is later is no time of day that can be shown."""
 
@@ -99,18 +101,53 @@ def find(name: str | None, *, base: Path | None = None) -> Path:
     Raises:
         ConfigError: if there is none.
     """
+    return named(name, base=base)[-1]
+
+
+def find_cut_off(name: str | None, *, base: Path | None = None) -> Path:
+    """A run to go on with: of several with that part in their names the only one that was cut off.
+
+    Where none of them was, the newest; without a name, the newest of all.
+
+    Raises:
+        ConfigError: there is none, or several of them were cut off: with their names.
+    """
+    fitting = named(name, base=base)
+    if name is None or len(fitting) == 1:
+        return fitting[-1]
+    several = [past for past in map(look, fitting) if past.ending == "cut off"]
+    open_ = [past for past in several if not past.gone_on_in]
+    if len(open_) < 2:
+        return Path(open_[0].folder) if open_ else fitting[-1]
+    words = [f"{Path(past.folder).name} ({past.text})" for past in reversed(open_)]
+    left_out = f", and {len(words) - MOST_NAMED} more" if len(words) > MOST_NAMED else ""
+    cure = f"name one: {', '.join(words[:MOST_NAMED])}{left_out}"
+    raise ConfigError(
+        [Problem(f"{len(words)} runs that were cut off have {name!r} in their names",
+                 suggestion=printable_line(cure))]
+    )  # fmt: skip
+
+
+def named(name: str | None, *, base: Path | None = None) -> list[Path]:
+    """The runs that a name may mean, the newest last; a folder or a whole name means one.
+
+    Raises:
+        ConfigError: if there is none.
+    """
     if name is not None and (Path(name) / FILE).is_file():
-        return Path(name)
+        return [Path(name)]
     known = runs(base)
     _check_journal(name, known)
     if not known:
         cure = 'begin with: humanoid do "squat for three seconds" --fast'
         raise ConfigError([Problem(f"there is no run in {base or HERE}/", suggestion=cure)])
     if name is None:
-        return known[-1]
+        return known
     fitting = [folder for folder in known if name and name in folder.name]
+    if exact := [folder for folder in fitting if folder.name == name]:
+        return exact[-1:]
     if fitting:
-        return fitting[-1]
+        return fitting
     hint = nearest(name, [folder.name for folder in known])
     if hint.startswith("valid"):
         hint = f"the newest is {known[-1].name!r}; `humanoid history` shows all"

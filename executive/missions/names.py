@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from executive.meaning.knowledge import Knowledge
+from executive.missions import steering_words
 from executive.missions.problems import Problems
 from intents import goals, parser
 from intents.context import Context
@@ -184,6 +185,8 @@ class Names:
             raise Wrong(text, "use parameters, or split it into missions that call one another")
         outcome = parser.parse(text, self._vocabulary, context=self._context)
         if isinstance(outcome, Goals):
+            if wrong := steering_words.problem(outcome.goals):
+                raise Wrong(*wrong)
             if outcome.reason:
                 self._reasons[text] = outcome.reason
             return outcome.goals

@@ -40,7 +40,7 @@ def resume(run: str | None, *, model: Path | None = None, as_json: bool) -> int:
     Raises:
         RobotError: it cannot be gone on with (ConfigError), or a part does not start.
     """
-    recorded = catching_up.check(past_runs.find(run))
+    recorded = catching_up.check(past_runs.find_cut_off(run))
     if recorded.header.attended:
         from executive.frontends.prompt.cli import go_on_with
 

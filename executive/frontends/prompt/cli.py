@@ -7,7 +7,6 @@ import time
 from collections.abc import Callable, Generator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from executive.engine.jobs import OVER
@@ -34,6 +33,7 @@ from executive.frontends.prompt.plain import lines_until, work_off
 from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.prompt.typed import Ahead
+from executive.frontends.recurring import Recurring
 from executive.frontends.speaking import Speech
 from executive.journal import failures
 from executive.journal.journal import Event, Journal
@@ -179,7 +179,7 @@ def conversation(
             stack.enter_context(robot.interrupts.listen())
         shell = Shell(robot, out, table=table.commands, folder=folder, model=model, speech=speech)
         shell.dialogue.agreed = options.yes
-        tell = partial(_tell, out=out)
+        tell = Telling(out)
         tell_what_goes_on(robot.session.journal, tell)
         if robot.halted_before:
             shell.ask_again()
@@ -190,22 +190,24 @@ def conversation(
         yield shell
 
 
-def tell_what_goes_on(journal: Journal, tell: Callable[[Event], None] | None = None) -> None:
+def tell_what_goes_on(journal: Journal, tell: Callable[[Event], None]) -> None:
     """Tell what is gone on with: that was written before anybody listened."""
     for event in tuple(journal.recent):  # at once: the robot's thread goes on writing
         if event.event == "resumed":
-            (tell or _tell)(event)
+            tell(event)
 
 
-def told(event: Event) -> str:
-    """What happens, as it happens: a line for people, or nothing."""
-    text = words(event)
-    return f"[{event.t_s:7.2f} s] {text}" if text else ""
+class Telling:
+    """Tells people what happens, as it happens, a line each."""
 
+    def __init__(self, out: Callable[[str], None]) -> None:
+        """Nothing has happened yet."""
+        self._out, self._recurring = out, Recurring()
 
-def _tell(event: Event, *, out: Callable[[str], None] | None = None) -> None:
-    if text := told(event):
-        (out or say)(text)
+    def __call__(self, event: Event) -> None:
+        """Hear an event of the journal."""
+        for text in self._recurring.news(event, words(event)):
+            self._out(f"[{event.t_s:7.2f} s] {text}")
 
 
 def words(event: Event) -> str:

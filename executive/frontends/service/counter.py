@@ -26,6 +26,7 @@ from executive.frontends.service import messages as m
 from executive.frontends.service import place as places
 from executive.frontends.service import views
 from executive.frontends.service.place import Place, Running
+from executive.frontends.service.readiness import is_ready
 from executive.frontends.service.telling import Log
 from robot.closing import Closing
 from robot.errors import RobotError
@@ -413,6 +414,7 @@ class Counter(Closing):
             runtime=running.runtime, pid=running.pid,
             state="gone" if robot.lost else robot.executive.state,
             mode=view.mode, health=view.unwell, asks=asked[0] if asked else "",
+            ready=is_ready(view, fast=running.runtime == "fast"),
             estop=robot.executive.estop.latched, time_s=round(view.time_s, 2), pose=view.pose,
             held=view.held,
             jobs=tuple(

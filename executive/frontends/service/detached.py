@@ -20,9 +20,13 @@ import robot
 from executive.frontends import streams
 from executive.frontends.exit import ended_by
 from executive.frontends.output import Screen, Waiting, say, tell_of_mistakes
+from executive.frontends.service import messages as m
 from executive.frontends.service import place as places
+from executive.frontends.service.client import Connection
 from executive.frontends.service.options import Up
+from executive.frontends.service.readiness import PATIENCE_S
 from executive.runs import run_folder
+from robot.errors import RobotError
 from robot.exit_status import ExitStatus
 from robot.files.ordinary_files import read_ordinary
 
@@ -32,7 +36,7 @@ MAX_LOG_BYTES = 1_000_000
 
 
 def up(options: Up) -> int:
-    """Start a robot in a session of its own, and wait until it listens; returns the exit status.
+    """Start a robot in a session of its own, and wait until it stands; returns the exit status.
 
     Ctrl-C meanwhile brings it down again.
 
@@ -52,15 +56,20 @@ def up(options: Up) -> int:
     try:
         with Screen(err=True).status("starting the robot"):
             place = _until_listening(options.name, process)
+            why_not = "" if place is None else _until_ready(place, process)
     except KeyboardInterrupt:
         process.send_signal(signal.SIGTERM)
         process.wait()
         raise
-    if place is None:
+    if place is None or process.poll() is not None:
         _tell_output(options.name)
         return process.returncode or ExitStatus.BROKEN
     running = places.running(place)
-    say(f"{options.name} is up: {options.robot} in {options.world}, pid {process.pid}.")
+    about = f"{options.robot} in {options.world}, pid {process.pid}"
+    if why_not:
+        say(f"{options.name} is starting: {about}. It takes no orders yet: {why_not}.")
+    else:
+        say(f"{options.name} is up: {about}.")
     if running is not None:
         say(f"  {running.run}")
     say('  humanoid say "...", status, stop, attach, logs, down')
@@ -78,6 +87,24 @@ def _until_listening(name: str, process: subprocess.Popen[bytes]) -> places.Plac
                 return place
         time.sleep(LOOK_S)
     return None
+
+
+def _until_ready(place: places.Place, process: subprocess.Popen[bytes]) -> str:
+    """Wait until a robot that listens takes orders; why it does not, if that takes too long."""
+    waiting, until_s = Waiting("starting the robot"), time.monotonic() + PATIENCE_S
+    why = "it does not answer"
+    while process.poll() is None and time.monotonic() < until_s:
+        waiting.look()
+        with suppress(RobotError), Connection(place) as connection:
+            standing = connection.ask(m.Status(), lambda _: None).standing
+            if standing is not None and standing.ready:
+                return ""
+            if standing is not None:
+                why = standing.health or "it does not stand yet"
+            if standing is not None and standing.mode == "fallen":
+                return "it lies on the floor"
+        time.sleep(LOOK_S)
+    return why
 
 
 def _tell_output(name: str) -> None:

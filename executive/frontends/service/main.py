@@ -11,7 +11,6 @@ import socket
 import time
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from executive.frontends import speaking
@@ -19,16 +18,16 @@ from executive.frontends.launching import FrontEnd, from_plain_options, here, la
 from executive.frontends.options import Prompt
 from executive.frontends.output import say
 from executive.frontends.printer import Printer
-from executive.frontends.prompt.cli import Begun, conversation, told
+from executive.frontends.prompt.cli import Begun, Telling, conversation
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.service import place as places
 from executive.frontends.service.counter import Counter
 from executive.frontends.service.options import Ros2, Up
 from executive.frontends.service.place import Place, Running
+from executive.frontends.service.readiness import Announcement
 from executive.frontends.service.ros2_beside import bridged, check
 from executive.frontends.service.ros2_plan import Plan, namespace_of
 from executive.frontends.service.telling import Log
-from executive.journal.journal import Event
 from robot.bringup.mailbox import Handle
 from robot.exit_status import ExitStatus
 from robot.files.ordinary_files import open_to_append
@@ -113,10 +112,13 @@ def _attend(shell: Shell, place: Place, options: Served, handle: Handle | None) 
             Counter(shell, place=place, running=running, log=log) as counter,
             bridged(_plan(options, place, handle, shell), logs=shell.folder, out=shell.out),
         ):
-            shell.robot.session.journal.listen(partial(_pass_on, counter))
-            shell.out(greeting(options))
-            tell_manager("READY=1")
+            shell.robot.session.journal.listen(Telling(counter.tell))
+            announcement = Announcement(
+                options.name, greeting(options), fast=handle is None, view=lambda: shell.robot.view,
+                now_s=time.monotonic, out=shell.out, ready=lambda: tell_manager("READY=1"),
+            )  # fmt: skip
             while not counter.left.wait(POLL_S):
+                announcement.look()
                 if shell.gone or interrupts.leaving or interrupts.pressed != before:
                     break
             tell_manager("STOPPING=1")
@@ -163,11 +165,6 @@ def greeting(options: Served) -> str:
         f"{options.name} is up: {options.robot} in {options.world}, {kind}. From any terminal: "
         f'humanoid say{named} "...", humanoid stop, humanoid attach{named}, humanoid down{named}'
     )
-
-
-def _pass_on(counter: Counter, event: Event) -> None:
-    if text := told(event):
-        counter.tell(text)
 
 
 def tell_manager(state: str) -> None:

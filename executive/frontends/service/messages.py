@@ -179,6 +179,7 @@ class Standing(msgspec.Struct, frozen=True, kw_only=True):
         pose: estimated x [m], y [m] and heading [degrees] in the world.
         health: what ails it; empty while all is well.
         asks: what it asks a person.
+        ready: whether it begins what it is told: it stands, and nothing holds it.
         jobs: that are not over.
     """
 
@@ -192,6 +193,7 @@ class Standing(msgspec.Struct, frozen=True, kw_only=True):
     mode: str
     health: str
     asks: str
+    ready: bool = True
     estop: bool
     time_s: float
     pose: tuple[float, float, float] | None = None

@@ -116,3 +116,37 @@ def test_a_run_of_several_jobs_is_not_done_because_its_last_one_is(run):
     found = past_runs.look(run)
     assert (found.jobs_done, found.jobs) == (2, 3)
     assert printing._how(found) == "2 of 3 done"
+
+
+def another(run: Path, name: str, *, ended: str = "") -> Path:
+    folder = run.with_name(name)
+    folder.mkdir()
+    (folder / "journal.jsonl").write_bytes(JOURNAL)
+    if ended:
+        (folder / "summary.json").write_text(f'{{"code": "{ended}"}}')
+    return folder
+
+
+def test_of_runs_with_a_part_in_their_names_the_one_that_was_cut_off_is_gone_on_with(run):
+    another(run, "20260102-120000-wave", ended="done")
+    last = another(run, "20260103-120000-squat", ended="done")
+    assert past_runs.find_cut_off("2026", base=run.parent) == run
+    assert past_runs.find_cut_off("wave", base=run.parent).name == "20260102-120000-wave"
+    assert past_runs.find_cut_off(None, base=run.parent) == last
+
+
+def test_of_several_that_were_cut_off_none_is_guessed(run):
+    other = another(run, "20260102-120000-wave")
+    with pytest.raises(ConfigError) as caught:
+        past_runs.find_cut_off("2026", base=run.parent)
+    told = str(caught.value)
+    assert "2 runs that were cut off have '2026' in their names" in told
+    assert told.index(other.name) < told.index(run.name)
+    assert past_runs.find_cut_off("0102", base=run.parent) == other
+
+
+def test_a_whole_name_means_its_run_though_it_is_a_part_of_another(run):
+    other = another(run, f"{run.name}-2")
+    assert past_runs.find(run.name, base=run.parent) == run
+    assert past_runs.find_cut_off(run.name, base=run.parent) == run
+    assert past_runs.find("squat", base=run.parent) == other

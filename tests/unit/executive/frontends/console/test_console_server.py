@@ -31,7 +31,7 @@ from tests.fakes.waiting import HANG_S
 
 NONCE = "0123456789abcdef"
 CLOSES_S = 0.5
-"""What a page that reads nothing waits for the other end's farewell: its own ends behind what came."""
+"""What a page that reads nothing waits for the other end to part: behind all that it was sent."""
 BASE = (0.0, 0.0, 0.6, 1.0, 0.0, 0.0, 0.0)
 
 
