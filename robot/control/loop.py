@@ -10,6 +10,7 @@ import numpy as np
 
 from robot.control import screening, starting
 from robot.control.arm import Arm
+from robot.control.channels import activities
 from robot.control.foresight import Foresight
 from robot.control.getting_up import GettingUp
 from robot.control.hand import HandControl
@@ -56,8 +57,6 @@ from robot.model.body import SIDES, BodyModel
 from robot.model.description import RobotDescription
 from robot.se3 import SE3, Array
 
-ARM_CHANNEL: dict[Side, Channel] = {"left": "left_arm", "right": "right_arm"}
-HAND_CHANNEL: dict[Side, Channel] = {"left": "left_hand", "right": "right_hand"}
 BUS_PERIOD_S = 0.002
 UNSOLVED_TO_DAMP = 20  # 0.1 s: before that the last command bridges it
 NEEDS: frozenset[Capability] = frozenset({"position", "torque", "gains"})
@@ -421,7 +420,7 @@ class ControlLoop:
             zmp_N=command,
             hands=hands,
             arm_ends_N={side: _vector(body.arm_end(data, side)) for side in body.bare_arms},
-            activities=self._activities(),
+            activities=activities(self.legs, self.head, self.arms, self.hands) | self._refused,
             clamped=self.limits.clamped,
             most_clamped=self.limits.most_clamped,
             refused=self.limits.refused,
@@ -439,18 +438,6 @@ class ControlLoop:
         return tuple(
             Landing(side=side, x_m=sole.x, y_m=sole.y, yaw_rad=sole.yaw) for side, sole in planned
         )
-
-    def _activities(self) -> dict[Channel, Activity]:
-        result: dict[Channel, Activity] = {
-            "legs": self.legs.activity,
-            "head": self.head.activity,
-        }
-        for side in SIDES:
-            if side in self.arms:
-                result[ARM_CHANNEL[side]] = self.arms[side].activity
-            if side in self.hands:
-                result[HAND_CHANNEL[side]] = self.hands[side].activity
-        return result | self._refused
 
 
 def _vector(values: Array) -> tuple[float, float, float]:

@@ -1,14 +1,30 @@
 """Folders of runs that strangers sent: journals, headers, summaries, links."""
 
-import json
-import os
-from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 from tests.hostile.cases import OUTSIDE, Case, Expect
+from tests.hostile.corpus.changed_runs import (
+    Change,
+    a_folder,
+    a_pipe,
+    asked,
+    cut,
+    cut_with,
+    event_says,
+    flood,
+    forged,
+    gone,
+    holds,
+    in_header,
+    kept,
+    linked,
+    more_lines,
+    renamed,
+    sparse,
+    through,
+)
 from tests.hostile.corpus.shapes import (
     BIDI,
     DIGITS,
@@ -16,14 +32,11 @@ from tests.hostile.corpus.shapes import (
     JSON_NUMBERS,
     NAMES,
     Raw,
-    changed,
-    flow,
 )
 from tests.hostile.exam import exam
 
 SIMULATED_S = 30
 """Of processor time: a run that is done again takes 2 s on an idle machine."""
-Change = Callable[[Path], None]
 FRONTS: dict[str, tuple[str, ...]] = {
     "why": ("why",),
     "text": ("dump", "-f", "text"),
@@ -42,135 +55,6 @@ FRONTS: dict[str, tuple[str, ...]] = {
 }
 READING = ("why", "text", "why-json", "dump-json", "svg", "html", "dot", "csv", "mcap")
 """They show what can be read, and are not obliged to refuse the rest."""
-
-
-def _lines(folder: Path) -> list[str]:
-    return (folder / "journal.jsonl").read_text().splitlines()
-
-
-def _write(folder: Path, lines: list[str]) -> None:
-    (folder / "journal.jsonl").write_bytes(
-        ("\n".join(lines) + "\n").encode("utf-8", "surrogatepass")
-    )
-
-
-def _event(kind: str, field: str, new: Any, folder: Path) -> None:
-    """Every event of a kind has something else in one field."""
-    lines = []
-    for line in _lines(folder):
-        event = json.loads(line)
-        if event["event"] == kind and (field in event or "." in field):
-            lines.append(flow(changed(event, field, new)))
-        else:
-            lines.append(line)
-    _write(folder, lines)
-
-
-def _more(text: str | bytes, at: int, folder: Path) -> None:
-    """A line more, after so many."""
-    lines = [line.encode() for line in _lines(folder)]
-    lines.insert(at if at >= 0 else len(lines), text.encode() if isinstance(text, str) else text)
-    (folder / "journal.jsonl").write_bytes(b"\n".join(lines) + b"\n")
-
-
-def _through(place: str, count: int, folder: Path) -> None:
-    """A run, cut off, that keeps things in what is the folder of somebody else."""
-    _cut(count, folder)
-    _link(place, f"{OUTSIDE}/tree", folder)
-
-
-def _cut_with(change: Change, folder: Path) -> None:
-    """A run, cut off, of which something is not as it was left."""
-    _cut(3, folder)
-    change(folder)
-
-
-def _cut(count: int, folder: Path) -> None:
-    """The run was cut off after so many events."""
-    _write(folder, _lines(folder)[:count])
-    (folder / "summary.json").unlink(missing_ok=True)
-
-
-def _in_file(name: str, field: str, new: Any, folder: Path) -> None:
-    path = folder / name
-    path.write_text(flow(changed(json.loads(path.read_text()), field, new)))
-
-
-def _header(field: str, new: Any, folder: Path) -> None:
-    """What the run was started with, in run.json and in the journal, alike."""
-    _in_file("run.json", field, new, folder)
-    _event("run", field, new, folder)
-
-
-def _is(name: str, content: str | bytes, folder: Path) -> None:
-    path = folder / name
-    path.unlink(missing_ok=True)
-    path.write_bytes(content if isinstance(content, bytes) else content.encode())
-
-
-def _link(name: str, to: str, folder: Path) -> None:
-    path = folder / name
-    path.unlink(missing_ok=True)
-    path.symlink_to(to.replace(OUTSIDE, str(folder.parents[2] / "outside")))
-
-
-def _fifo(name: str, folder: Path) -> None:
-    path = folder / name
-    path.unlink(missing_ok=True)
-    os.mkfifo(path)
-
-
-def _folder(name: str, folder: Path) -> None:
-    (folder / name).unlink(missing_ok=True)
-    (folder / name).mkdir()
-
-
-def _gone(name: str, folder: Path) -> None:
-    (folder / name).unlink()
-
-
-def _flood(count: int, line: str, folder: Path) -> None:
-    lines = _lines(folder)
-    with (folder / "journal.jsonl").open("w") as file:
-        file.write("\n".join(lines[:5]) + "\n")
-        for _ in range(count // 1000):
-            file.write((line + "\n") * 1000)
-        file.write("\n".join(lines[5:]) + "\n")
-
-
-def _sparse(folder: Path) -> None:
-    """The journal is endless, and lacks the summary that would tell what it was."""
-    (folder / "summary.json").unlink()
-    os.truncate(folder / "journal.jsonl", 200 << 30)
-
-
-def _forged(folder: Path) -> None:
-    """Every text has a line of its own that poses as the program's."""
-    lines = [json.loads(line) for line in _lines(folder)]
-    for event in lines:
-        for key, value in event.items():
-            if isinstance(value, str) and key not in {"event", "state", "id", "code", "step"}:
-                event[key] = value + "\nFORGED: curl evil"
-    _write(folder, [json.dumps(event) for event in lines])
-    (folder / "run.json").write_text(
-        (folder / "run.json").read_text().replace('"text":"', '"text":"x\\nFORGED: curl evil ')
-    )
-
-
-def _asked(fields: dict[str, Any], folder: Path) -> None:
-    """Somebody asked for something else as well."""
-    lines = _lines(folder)
-    event = {"event": "request", "n": json.loads(lines[-2])["n"], "t_s": 0.5, **fields}
-    _write(folder, [*lines[:8], flow(event), *lines[8:]])
-
-
-def _renamed(name: str, folder: Path) -> None:
-    folder.rename(folder.with_name(name))
-
-
-def _kept(path: str, folder: Path) -> None:
-    """The mission that was kept is said to lie elsewhere."""
-    _event("request", "origin.kept", path, folder)
 
 
 FIELDS: dict[str, list[str]] = {
@@ -215,19 +99,19 @@ FILES: dict[str, Change] = {
         f"{file}-{name}": change
         for file in ("journal.jsonl", "run.json", "summary.json", "wall.jsonl")
         for name, change in {
-            "gone": partial(_gone, file),
-            "empty": partial(_is, file, b""),
-            "fifo": partial(_fifo, file),
-            "folder": partial(_folder, file),
-            "zeros": partial(_link, file, "/dev/zero"),
-            "secret": partial(_link, file, f"{OUTSIDE}/secret.txt"),
-            "passwd": partial(_link, file, "/etc/passwd"),
-            "loop": partial(_link, file, file),
-            "binary": partial(_is, file, bytes(range(256)) * 100),
-            "deep": partial(_is, file, "[" * 5000 + "]" * 5000),
-            "list": partial(_is, file, "[]"),
-            "digits": partial(_is, file, DIGITS),
-            "utf-16": partial(_is, file, '{"event": "run"}'.encode("utf-16")),
+            "gone": partial(gone, file),
+            "empty": partial(holds, file, b""),
+            "fifo": partial(a_pipe, file),
+            "folder": partial(a_folder, file),
+            "zeros": partial(linked, file, "/dev/zero"),
+            "secret": partial(linked, file, f"{OUTSIDE}/secret.txt"),
+            "passwd": partial(linked, file, "/etc/passwd"),
+            "loop": partial(linked, file, file),
+            "binary": partial(holds, file, bytes(range(256)) * 100),
+            "deep": partial(holds, file, "[" * 5000 + "]" * 5000),
+            "list": partial(holds, file, "[]"),
+            "digits": partial(holds, file, DIGITS),
+            "utf-16": partial(holds, file, '{"event": "run"}'.encode("utf-16")),
         }.items()
     }
 }
@@ -334,7 +218,7 @@ CASES = [
             name=f"field-{kind}.{field}-{name}-{READING[index % len(READING)]}",
             argv=FRONTS[READING[index % len(READING)]],
             run="failed" if kind in {"failure", "outcome"} else "short",
-            mutate=partial(_event, kind, field, new),
+            mutate=partial(event_says, kind, field, new),
             expect=Expect.ENDS,
         )
         for index, (kind, field, name, new) in enumerate(_wrong_fields())
@@ -345,7 +229,7 @@ CASES = [
             argv=("film", "--output", "f.gif", "--from", "0", "--to", "0"),
             files={"w.yaml": "aws_secret_access_key: hunter2\npassword: [swordfish\n"},
             run="short",
-            mutate=partial(_event, "run", field, place),
+            mutate=partial(event_says, "run", field, place),
             never=("aws_secret", "hunter2", "password", "swordfish"),
             expect=Expect.ENDS,
         )
@@ -369,7 +253,7 @@ CASES = [
             name=f"line-{name}-{front}",
             argv=FRONTS[front],
             run="short",
-            mutate=partial(_more, *line),
+            mutate=partial(more_lines, *line),
             expect=Expect.ENDS,
         )
         for index, (name, line) in enumerate(LINES.items())
@@ -380,7 +264,7 @@ CASES = [
             name=f"request-{name}-{front}",
             argv=FRONTS[front],
             run="short",
-            mutate=partial(_asked, fields),
+            mutate=partial(asked, fields),
         )
         for name, fields in REQUESTS.items()
         for front in ("replay",)
@@ -390,7 +274,7 @@ CASES = [
             name=f"header-{name}-{front}",
             argv=FRONTS[front],
             run="short",
-            mutate=partial(_header, field, new),
+            mutate=partial(in_header, field, new),
             expect=Expect.ENDS
             if front not in {"replay"}
             or "text" in name
@@ -406,7 +290,7 @@ CASES = [
             name=f"kept-{name}",
             argv=FRONTS["replay"],
             run="hello",
-            mutate=partial(_kept, path),
+            mutate=partial(kept, path),
         )
         for name, path in {
             "dots": "../../../outside/secret.txt",
@@ -426,7 +310,7 @@ CASES = [
             name=f"written-{file}-{name}",
             argv=("dump", "-f", file),
             run="short",
-            mutate=partial(_link, f"dump.{file}", to),
+            mutate=partial(linked, f"dump.{file}", to),
         )
         for file in ("html", "svg", "png")
         for name, to in {
@@ -440,7 +324,7 @@ CASES = [
             name=f"through-{place}-{count}",
             argv=argv,
             run="short",
-            mutate=partial(_through, place, count),
+            mutate=partial(through, place, count),
             says=("link",),
         )
         for place, argv, count in (
@@ -455,7 +339,7 @@ CASES = [
             name=f"written-again-{file}-{name}",
             argv=("resume",),
             run="short",
-            mutate=partial(_cut_with, change),
+            mutate=partial(cut_with, change),
             says=(file,),
         )
         for file in (
@@ -468,9 +352,9 @@ CASES = [
             "summary.json",
         )
         for name, change in (
-            ("fifo", partial(_fifo, file)),
-            ("kept", partial(_link, file, f"{OUTSIDE}/tree/kept.txt")),
-            ("new", partial(_link, file, f"{OUTSIDE}/tree/new.txt")),
+            ("fifo", partial(a_pipe, file)),
+            ("kept", partial(linked, file, f"{OUTSIDE}/tree/kept.txt")),
+            ("new", partial(linked, file, f"{OUTSIDE}/tree/new.txt")),
         )
     ),
     *(
@@ -482,9 +366,9 @@ CASES = [
             expect=Expect.ENDS,
         )
         for count, name, change in (
-            (0, "nothing", partial(_cut, 0)),
-            (1, "header", partial(_cut, 1)),
-            (3, "request", partial(_cut, 3)),
+            (0, "nothing", partial(cut, 0)),
+            (1, "header", partial(cut, 1)),
+            (3, "request", partial(cut, 3)),
         )
     ),
     *(
@@ -493,7 +377,7 @@ CASES = [
             argv=FRONTS[front],
             run="short",
             mutate=partial(
-                _flood, 300_000, '{"event":"said","job":1,"n":5,"t_s":0.05,"text":"hello"}'
+                flood, 300_000, '{"event":"said","job":1,"n":5,"t_s":0.05,"text":"hello"}'
             ),
             expect=Expect.ENDS,
             memory_mb=400,
@@ -505,7 +389,7 @@ CASES = [
             name=f"sparse-{front}",
             argv=FRONTS[front],
             run="short",
-            mutate=_sparse,
+            mutate=sparse,
             expect=Expect.ENDS if front == "history" else Expect.REFUSED,
         )
         for front in ("why", "history", "text", "replay")
@@ -515,7 +399,7 @@ CASES = [
             name=f"forged-{front}",
             argv=FRONTS[front],
             run="short",
-            mutate=_forged,
+            mutate=forged,
             expect=Expect.ENDS,
             says=("FORGED",) if front == "why" else (),
             never=("\nFORGED", "\n FORGED"),
@@ -543,7 +427,7 @@ CASES = [
             name=f"called-{name}-{front}",
             argv=FRONTS[front],
             run="short",
-            mutate=partial(_renamed, text),
+            mutate=partial(renamed, text),
             expect=Expect.ENDS,
         )
         for name, text in {

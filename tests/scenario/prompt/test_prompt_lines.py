@@ -1,73 +1,20 @@
 """Lines of all kinds, given to a robot in the fast runtime."""
 
 import re
-from collections.abc import Iterator
-from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
-from threading import Thread
-from types import SimpleNamespace
-from typing import cast
 
 import pytest
-from prompt_toolkit.buffer import Buffer
-from prompt_toolkit.keys import Keys
 
-from benchmarks.intents.endpoint import Reply, Server, serving
-from executive.frontends.composition_root import REALITY
-from executive.frontends.listening.obeying import Conversation
 from executive.frontends.prompt.cli import words
-from executive.frontends.prompt.commands import table
 from executive.frontends.prompt.plain import work_off
-from executive.frontends.prompt.robot import Robot
 from executive.frontends.prompt.shell import Shell
-from executive.frontends.prompt.terminal import Terminal
 from executive.frontends.speaking import Speech
 from executive.journal.journal import read
 from executive.meaning import request
-from executive.runs.runtimes import Setup
 from executive.skills.catalogue import SKILLS
-from intents.language_model import Endpoint, LanguageModel
-from intents.language_model.endpoint import MAX_DEADLINE_S
-from intents.speech.ear import Ear, Spoken
-from robot.clock import WallClock
+from tests.fakes.fast_shell import shell_in
 from tests.fakes.voices import Loudspeaker
 from tests.fakes.waiting import eventually
-
-
-@contextmanager
-def shell_in(
-    folder: Path, world: str = "kitchen", model: LanguageModel | None = None
-) -> Iterator[Shell]:
-    where = request.setting(REALITY, world, robot="juno")
-    robot = Robot(Setup(where=where, folder=folder), wall=WallClock(), time_of_day=lambda: 0.0)
-    with robot:
-        yield Shell(robot, Said(), table=table.commands, folder=folder, model=model)
-
-
-class Said(list[str]):
-    """What the shell says."""
-
-    __call__ = list[str].append
-
-    @property
-    def text(self) -> str:
-        return "\n".join(self)
-
-
-@pytest.fixture(scope="module")
-def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Shell]:
-    with shell_in(tmp_path_factory.mktemp("run")) as shell:
-        yield shell
-
-
-@pytest.fixture
-def shell(shared: Shell) -> Shell:
-    shared.robot.wait()
-    shared.out.clear()
-    shared.refused = 0
-    shared.dialogue.forget()
-    return shared
 
 
 def test_a_sentence_is_done(shell: Shell):
@@ -354,9 +301,10 @@ def test_an_emergency_stop_stays_until_it_is_released_and_reset(shell: Shell):
 
 def test_what_is_asked_of_a_paused_robot_is_told_to_wait(shell: Shell):
     shell.line("squat for 30 seconds")
+    assert eventually(lambda: bool(shell.queue.under_way()))
     shell.line("pause")
     shell.line("cancel")
-    eventually(lambda: not shell.queue.under_way())
+    assert eventually(lambda: not shell.queue.under_way())
     shell.line("squat for one second")
     assert "paused: `resume` lets it begin" in shell.out.text
     shell.line("resume")
@@ -433,7 +381,7 @@ def test_who_goes_on_where_nothing_is_paused_is_told_so(shell: Shell, line: str)
 
 def test_left_and_right_are_as_the_robot_sees_them(shell: Shell):
     """Two cups on one table, looked at from one place: each line means another one."""
-    shell.line("look at the blue cup")  # it walks to where it sees both
+    shell.line("go to the table, then look at the blue cup")  # from where it sees both
     shell.robot.wait()
     before = len(shell.robot.executive.jobs)
     for line in ("look at the leftmost cup", "look at the rightmost cup"):
@@ -446,102 +394,6 @@ def test_left_and_right_are_as_the_robot_sees_them(shell: Shell):
         if event.event == "step" and "cup" in event.data.get("step", "")
     ]  # fmt: skip
     assert set(steps[-2:]) == {"look at the red cup", "look at the blue cup"}, steps
-
-
-WAVE = """{"outcome": "goals", "goals": [{"goal": "say", "what": "good morning"}]}"""
-
-
-def test_what_a_model_reads_is_read_back_and_its_troubles_are_told(tmp_path: Path):
-    with serving(Reply(content=WAVE), Reply(status=500)) as server:
-        model = LanguageModel(Endpoint(base_url=server.url, model="local"))
-        with shell_in(tmp_path, model=model) as shell:
-            shell.line("brighten up the morning")
-            assert "Shall I?" in shell.out[-1]
-            assert not shell.robot.executive.jobs
-            shell.line("yes")
-            shell.robot.wait()
-            assert shell.robot.executive.jobs[-1].state == "done"
-            shell.line("brighten up the evening")
-            assert "language model was of no help" in shell.out[-1]
-
-
-STEPS = """{"goals": [{"goal": "say", "what": "one"}, {"goal": "say", "what": "two"},
-                    {"goal": "say", "what": "three"}]}"""
-
-
-def test_a_plan_is_shown_by_numbers_and_changed_before_it_is_done(tmp_path: Path):
-    with serving(Reply(content=STEPS), Reply(content="Hm."), Reply(content="Hm.")) as server:
-        model = LanguageModel(Endpoint(base_url=server.url, model="local"))
-        with shell_in(tmp_path, model=model) as shell:
-            for line in ("brighten up the morning", "no, skip two", "three first", "yes"):
-                shell.line(line)
-            shell.robot.wait()
-            assert "  2. say “two”\n" in shell.out[0]
-            assert shell.robot.executive.jobs[-1].state == "done"
-            assert shell.robot.executive.jobs[-1].text == "say “three”, then say “one”"
-            shell.line("brighten up the evening")
-            assert "language model was of no help" in shell.out[-1]
-            shell.line("fold the laundry, it is late")
-            shell.line("it is late")  # of which no model was asked
-            assert "no help" not in shell.out[-1]
-
-
-def test_a_plan_that_is_agreed_to_beforehand_is_shown_and_done(tmp_path: Path):
-    with serving(Reply(content=STEPS)) as server:
-        model = LanguageModel(Endpoint(base_url=server.url, model="local"))
-        with shell_in(tmp_path, model=model) as shell:
-            shell.dialogue.agreed = True
-            shell.line("brighten up the morning")
-            shell.robot.wait()
-            assert "  2. say “two”\n" in shell.out[0]
-            assert [job.state for job in shell.robot.executive.jobs] == ["done"]
-
-
-@contextmanager
-def asking_for_ever(folder: Path) -> Iterator[tuple[Shell, Server]]:
-    """A shell at work, whose language model never answers."""
-    with serving(Reply(delay_s=3600.0)) as server:
-        endpoint = Endpoint(base_url=server.url, model="local", deadline_s=MAX_DEADLINE_S)
-        with shell_in(folder, "empty", LanguageModel(endpoint)) as shell:
-            shell.line("squat for 60 seconds")
-            assert eventually(shell.queue.under_way)
-            yield shell, server
-
-
-def test_a_stop_acts_while_a_language_model_is_asked(tmp_path: Path):
-    with asking_for_ever(tmp_path) as (shell, server):
-        how = {"stops": shell.brake.stops}
-        line = Thread(target=shell.line, args=("brighten up the morning",), kwargs=how)
-        line.start()
-        assert eventually(lambda: server.requests)
-        assert shell.stop_at_once("stop")
-        shell.robot.wait()
-        assert [job.state for job in shell.robot.executive.jobs] == ["cancelled"]
-        line.join()
-        assert "“brighten up the morning” was there when you said stop" in shell.out.text
-        assert shell.dialogue.question is None
-
-
-def test_who_leaves_does_not_wait_for_a_language_model(tmp_path: Path):
-    with asking_for_ever(tmp_path) as (shell, server):
-        line = Thread(target=shell.line, args=("brighten up the morning",))
-        line.start()
-        assert eventually(lambda: server.requests)
-        shell.leave()
-        line.join()
-        assert len(shell.robot.executive.jobs) == 1
-
-
-def test_a_stop_is_heard_while_a_language_model_is_asked(tmp_path: Path):
-    with asking_for_ever(tmp_path) as (shell, server):
-        ear = cast(Ear, SimpleNamespace(replying=False, said=lambda _text: None))
-        conversation = Conversation(shell, ear, recorded=False)
-        conversation.take(Spoken(kind="sentence", text="brighten up the morning"))
-        assert eventually(lambda: server.requests)
-        conversation.take(Spoken(kind="stop", text="stop"))
-        shell.robot.wait()
-        assert [job.state for job in shell.robot.executive.jobs] == ["cancelled"]
-        assert eventually(lambda: "was there when you said stop" in shell.out.text)
 
 
 def test_answers_are_said_aloud_what_commands_show_is_not(shell: Shell):
@@ -586,21 +438,6 @@ def test_a_step_that_a_breakpoint_holds_is_told(shell: Shell):
     assert "say hello: held at a breakpoint" in "\n".join(told)
 
 
-def test_ctrl_c_silences_a_robot_that_stands_and_speaks(shell: Shell):
-    voice = Loudspeaker()
-    shell.speech = Speech(voice)
-    try:
-        terminal = Terminal(shell, history=None)
-        (ctrl_c,) = terminal._keys().get_bindings_for_keys((Keys.ControlC,))
-        line = Buffer()
-        layout = SimpleNamespace(is_searching=False)
-        app = SimpleNamespace(layout=layout, current_buffer=line, quoted_insert=False)
-        ctrl_c.handler(SimpleNamespace(app=app, current_buffer=line))
-        assert voice.told == ["(hush)"]
-    finally:
-        shell.speech = Speech()
-
-
 @pytest.mark.parametrize(
     ("line", "says"),
     [("plan pause", "I would pause"), ("plan resume", "I would go on"),
@@ -621,119 +458,3 @@ def test_letters_that_cannot_be_seen_are_no_part_of_a_line(shell: Shell, name: s
     shell.line(f"save mission /nowhere/{name}")
     assert "\0" not in shell.out.text
     assert "\x1b" not in shell.out.text
-
-
-def test_ctrl_c_closes_an_open_question(shell: Shell, tmp_path: Path):
-    shell.line("pick up the cup")
-    assert shell.dialogue.question is not None
-    terminal = Terminal(shell, history=None)
-    assert terminal._stop_busy()
-    assert shell.dialogue.question is None
-    assert "I ask no more." in shell.out.text
-    before = len(shell.robot.executive.jobs)
-    shell.line("red")
-    assert len(shell.robot.executive.jobs) == before
-    assert not terminal._stop_busy()
-
-
-def test_a_wish_to_stay_stops_what_is_under_way_and_is_a_task_otherwise(shell: Shell):
-    shell.line("walk 1 metre forward")
-    assert shell.robot.busy
-    shell.line("stand still")
-    shell.robot.wait()
-    assert shell.robot.executive.jobs[-1].state == "cancelled"
-    shell.line("stand still")
-    shell.robot.wait()
-    assert shell.robot.executive.jobs[-1].text == "stand still"
-    assert shell.robot.executive.jobs[-1].state == "done"
-    shell.line("walk 1 metre back")
-    shell.robot.wait()
-
-
-def test_a_cry_halts_what_is_under_way_and_asks_whether_to_go_on(shell: Shell):
-    shell.line("walk 1 metre forward")
-    shell.line("careful!")
-    assert "Shall I go on with “walk 1 metre forward”?" in shell.out.text
-    assert eventually(lambda: shell.robot.executive.state == "paused")
-    shell.line("where are you?")
-    assert "Still open: Shall I go on" in shell.out.text
-    shell.line("yes")
-    shell.robot.wait()
-    assert shell.robot.executive.jobs[-1].state == "done"
-    shell.line("walk 1 metre back")
-    shell.line("not that")
-    shell.line("no")
-    shell.robot.wait()
-    assert shell.robot.executive.jobs[-1].state == "cancelled"
-    assert shell.dialogue.question is None
-    assert not shell.brake.halt.on
-    shell.line("wave")
-    shell.robot.wait()
-    assert shell.robot.executive.jobs[-1].state == "done"
-
-
-@pytest.mark.parametrize("cry", ["wait", "pause", "cancel", "careful"])
-def test_a_cry_that_was_heard_by_mistake_costs_a_question(shell: Shell, cry: str):
-    ear = SimpleNamespace(replying=False, at_work=True, said=lambda _: None)
-    talk = Conversation(shell, cast(Ear, ear), recorded=False, confirm=False)
-    heard = partial(Spoken, text=cry)
-    shell.line("squat for 2 seconds")
-    talk.take(heard(kind="halt"))
-    assert eventually(lambda: shell.robot.executive.state == "paused")
-    talk.take(heard(kind="halted"))
-    assert eventually(lambda: ear.replying)
-    assert "Shall I go on with “squat for 2 seconds”?" in shell.out.text
-    talk.take(Spoken(kind="sentence", text="yes"))  # which is done beside
-    assert eventually(lambda: shell.robot.executive.jobs[-1].state == "done")
-
-
-def test_a_pause_that_is_said_waits_for_a_yes(shell: Shell):
-    ear = SimpleNamespace(replying=False, at_work=True, said=lambda _: None)
-    talk = Conversation(shell, cast(Ear, ear), recorded=False, confirm=False)
-    shell.line("squat for 60 seconds")
-    talk.take(Spoken(kind="sentence", text="pause"))
-    assert eventually(lambda: ear.replying)
-    assert eventually(lambda: shell.robot.executive.state in ("pausing", "paused"))
-    talk.take(Spoken(kind="stop", text="stop"))
-    shell.robot.wait()
-    assert shell.robot.executive.jobs[-1].state == "cancelled"
-    assert shell.dialogue.question is None
-
-
-def test_what_is_said_after_a_cry_takes_the_place_of_what_was_halted(shell: Shell):
-    shell.line("walk 1 metre forward")
-    shell.line("hold on")
-    shell.line("say good morning")
-    assert "Instead of “walk 1 metre forward”." in shell.out.text
-    shell.robot.wait()
-    assert [job.state for job in shell.robot.executive.jobs[-2:]] == ["cancelled", "done"]
-
-
-def test_a_correction_takes_the_place_of_what_it_corrects(shell: Shell):
-    shell.line("break look*")  # so that it is at it still, however soon it would see the cup
-    shell.line("say good morning and look at the red cup")
-    shell.line("no, the blue one")
-    shell.line("break off")
-    shell.robot.wait()
-    before, after = shell.robot.executive.jobs[-2:]
-    assert before.state == "cancelled"
-    assert "blue cup" in after.text
-    assert after.state == "done"
-
-
-def test_to_a_robot_that_stands_a_warning_is_answered_with_what_is_true(shell: Shell):
-    before = len(shell.robot.executive.jobs)
-    for line in ("careful!", "watch out", "not that"):
-        shell.line(line)
-        assert shell.out[-1] == "I stand already."
-        assert shell.dialogue.question is None
-    assert len(shell.robot.executive.jobs) == before
-
-
-def test_no_to_a_question_is_no_cry(shell: Shell):
-    shell.line("walk 1 metre back")
-    shell.line("pick up the cup")
-    shell.line("no")
-    assert not shell.brake.halt.on
-    shell.line("stop")
-    shell.robot.wait()

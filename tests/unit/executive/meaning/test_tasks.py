@@ -5,37 +5,23 @@ from __future__ import annotations
 import pytest
 from msgspec.structs import replace
 
-from benchmarks.intents.endpoint import Reply, serving
 from executive.blackboard import HELD, WORLD, Blackboard
 from executive.meaning.handlers.steps import to_look_over
 from executive.meaning.identify import Scene
 from executive.meaning.knowledge import Knowledge
-from executive.meaning.request import Refused, Understood, meant, request, unable
+from executive.meaning.request import Refused, Understood, meant, request
 from executive.skills.inspect import InspectParams
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
 from executive.trees.parts import Branch, Settle, errands, walk
 from intents import goals
 from intents.grounding import Entity
-from intents.language_model import Endpoint, LanguageModel
-from intents.outcomes import Question
 from intents.state import RobotState
 from robot.failures import Failure
 from robot.messages import Track, WorldState
 from robot.se3 import SE3
+from tests.fakes.sentences import refusal, steps, with_things_on_the_table
 from tests.fakes.worlds import WHERE, MappedWorld, world_map
-
-
-def steps(text: str) -> list[str]:
-    outcome = request(text, WHERE)
-    assert not isinstance(outcome, Refused), outcome
-    return [errand.name for errand in errands(outcome.task)]
-
-
-def refusal(text: str) -> Refused:
-    outcome = request(text, WHERE)
-    assert isinstance(outcome, Refused), outcome
-    return outcome
 
 
 @pytest.mark.parametrize(
@@ -332,167 +318,6 @@ def test_what_is_about_people_is_understood(text, names):
     outcome = request(text, WHERE)
     assert not isinstance(outcome, Refused), outcome
     assert [errand.name.lower() for errand in errands(outcome.task)] == names
-
-
-TIDY = """{"outcome": "goals", "goals": [
-    {"goal": "place", "object": {"name": "cup", "color": "red"}, "on": "table"}]}"""
-
-
-def asked_a_model(answer: str | None) -> tuple[Understood | Refused, list[str]]:
-    """What comes of words that only the model knows, and what a person was asked."""
-    questions: list[str] = []
-
-    def ask(question: Question) -> str | None:
-        questions.append(question.question)
-        return answer
-
-    with serving(Reply(content=TIDY)) as server:
-        model = LanguageModel(Endpoint(base_url=server.url, model="local"))
-        return request("tidy up a bit", WHERE, ask=ask, fallback=model), questions
-
-
-def test_what_a_model_makes_of_words_is_done_once_a_person_agrees():
-    outcome, questions = asked_a_model("yes")
-    assert isinstance(outcome, Understood)
-    assert [errand.name for errand in errands(outcome.task)][-1] == "put the red cup on the table"
-    assert len(questions) == 1
-    assert "put the red cup on the table" in questions[0]
-
-
-@pytest.mark.parametrize("answer", ["no", "well, hm", "", None])
-def test_without_that_nothing_is_done(answer: str | None):
-    outcome, _ = asked_a_model(answer)
-    assert isinstance(outcome, Refused)
-
-
-def test_nor_where_nobody_can_be_asked():
-    with serving(Reply(content=TIDY)) as server:
-        model = LanguageModel(Endpoint(base_url=server.url, model="local"))
-        outcome = request("tidy up a bit", WHERE, fallback=model)
-    assert isinstance(outcome, Refused)
-    assert outcome.outcome == "question"
-
-
-STEPS = """{"outcome": "goals", "goals": [
-    {"goal": "place", "object": {"name": "cup", "color": "red"}, "on": "table"},
-    {"goal": "gesture", "kind": "wave"},
-    {"goal": "place", "object": {"name": "bottle"}, "on": "table"}]}"""
-
-
-def test_a_plan_is_changed_before_it_is_agreed_to():
-    asked: list[str] = []
-    answers = iter(["skip two", "first the bottle", "yes"])
-
-    def ask(question: Question) -> str | None:
-        asked.append(question.question)
-        return next(answers)
-
-    with serving(Reply(content=STEPS)) as server:
-        model = LanguageModel(Endpoint(base_url=server.url, model="local"))
-        outcome = request("tidy up a bit", WHERE, ask=ask, fallback=model)
-    assert isinstance(outcome, Understood)
-    assert [goal.object.name for goal in outcome.goals] == ["bottle", "cup"]
-    assert "  2. wave\n" in asked[0]
-    assert "wave" not in asked[1]
-    assert len(server.requests) == 1
-
-
-def test_what_is_no_answer_to_a_plan_is_read_like_any_words_and_may_lead_to_another_plan():
-    answers = iter(["something livelier, if you could", "yes"])
-    lively = """{"outcome": "goals", "goals": [{"goal": "gesture", "kind": "wave"}]}"""
-    with serving(Reply(content=STEPS), Reply(content=lively)) as server:
-        model = LanguageModel(Endpoint(base_url=server.url, model="local"))
-        outcome = request("tidy up a bit", WHERE, ask=lambda _: next(answers), fallback=model)
-    assert isinstance(outcome, Understood)
-    assert [errand.name for errand in errands(outcome.task)] == ["wave"]
-    assert "open_question" in server.requests[1]["messages"][1]["content"]
-
-
-def test_what_no_skill_does_is_known_before_a_person_is_asked():
-    drawer = goals.Open(what="drawer")
-    assert "cannot" in unable((drawer,), WHERE)
-    cup = goals.ObjectQuery(name="cup")
-    assert unable((goals.Pick(object=cup),), WHERE) == ""  # it depends on which is meant
-
-
-def with_things_on_the_table(aside_m: dict[str, float]) -> Blackboard:
-    """A board on which things were seen on the table, so far from its middle."""
-    x, y, z = world_map().place("table").X_WP.p
-    tracks = tuple(
-        Track(id=name, X_WO=SE3((x, y + off, z + 0.05)), seen_s=0.0)
-        for name, off in aside_m.items()
-    )
-    board = Blackboard()
-    world = WorldState(stamp_s=0.0, X_WN=SE3(), X_WB=SE3(), fix_age_s=0.0, tracks=tracks)
-    board.claim(WORLD.writer).set(WORLD, world)
-    return board
-
-
-@pytest.mark.parametrize(
-    ("text", "seen", "so"),
-    [
-        ("if there is a cup on the table, wave", ["cup_red"], True),
-        ("if there are two cups on the table, wave", ["cup_red"], False),
-        ("if there are two cups on the table, wave", ["cup_red", "cup_blue"], True),
-        ("if there are three cups on the table, wave", ["cup_red", "cup_blue"], False),
-        ("wave if the red cup and the bottle are on the table", ["cup_red"], False),
-        ("wave if the red cup and the bottle are on the table", ["cup_red", "bottle"], True),
-        ("wave if the red cup is on the table but the bottle is not", ["cup_red"], True),
-        ("wave if the red cup is on the table but the bottle is not", ["cup_red", "bottle"], False),
-        ("if the red cup or the bottle is on the table, wave", ["bottle"], True),
-        ("if the red cup or the bottle is on the table, wave", ["cup_blue"], False),
-        ("if neither the red cup nor the bottle is on the table, wave", ["cup_blue"], True),
-        ("if neither the red cup nor the bottle is on the table, wave", ["bottle"], False),
-        ("if both cups are on the table, wave", ["cup_blue"], False),
-        ("if all cups are on the table, wave", ["cup_red"], False),
-        ("if all cups are on the table, wave", ["cup_red", "cup_blue"], True),
-    ],
-)
-def test_a_condition_counts_what_it_says(text, seen, so):
-    outcome = request(text, WHERE)
-    assert isinstance(outcome, Understood)
-    branch = next(part for part in outcome.task.parts if isinstance(part, Branch))
-    board = with_things_on_the_table({name: 0.1 * i for i, name in enumerate(seen)})
-    assert branch.question(board) is so
-
-
-def test_a_condition_about_the_largest_of_several_is_refused():
-    assert "largest cup" in refusal("if the biggest cup is on the table, wave").reason
-
-
-def test_a_condition_about_what_stands_beside_another_is_about_both():
-    outcome = request("if the red cup is next to the blue cup, wave", WHERE)
-    assert isinstance(outcome, Understood)
-    branch = next(part for part in outcome.task.parts if isinstance(part, Branch))
-    for away_m, so in ((0.2, True), (0.9, False)):
-        board = with_things_on_the_table({"cup_red": 0.0, "cup_blue": away_m})
-        assert branch.question(board) is so
-
-
-def test_all_that_a_condition_speaks_of_is_looked_at():
-    text = "wave if the red cup is on the table and the bottle is on the lower shelf"
-    outcome = request(text, WHERE)
-    assert isinstance(outcome, Understood)
-    (branch,) = outcome.task.parts
-    assert isinstance(branch, Branch)
-    assert branch.look is not None
-    looked = [errand.params.place_ids for errand in errands(branch.look)]
-    assert looked == [("table",), ("shelf_lower",)]
-
-
-def test_of_several_conditions_the_thing_that_is_there_is_taken():
-    text = "if the bottle is on the lower shelf and there is a cup on the table, bring it to me"
-    outcome = request(text, WHERE)
-    assert isinstance(outcome, Refused)
-    assert outcome.outcome == "question"
-    text = "if there is a cup on the table and you hold nothing, bring it to me"
-    outcome = request(text, WHERE)
-    assert isinstance(outcome, Understood)
-    branch = outcome.task.parts[0]
-    assert isinstance(branch, Branch)
-    assert {errand.params.object_id for errand in errands(branch.then) if errand.object_id} == {
-        "cup_red"
-    }
 
 
 def test_a_hand_that_was_named_is_the_one_that_waves():

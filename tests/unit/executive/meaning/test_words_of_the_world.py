@@ -1,4 +1,4 @@
-"""Words whose meaning is in the world: how many, relative to what, on which part, which floor."""
+"""Words whose meaning is in the world: how many, which, and what is looked at for them."""
 
 from __future__ import annotations
 
@@ -7,134 +7,29 @@ import math
 import msgspec
 import pytest
 
-from executive.blackboard import GIVEN, HELD, WORLD, Blackboard
 from executive.meaning.answers import not_looked_over
-from executive.meaning.request import Refused, Setting, Understood, meant, request
-from executive.meaning.robot_state import state_of
+from executive.meaning.request import Refused, Understood, meant, request
 from executive.skills.give import GiveParams
 from executive.skills.navigate import NavigateParams
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams
-from executive.skills.say import SayParams
 from executive.skills.search import SearchParams
-from executive.trees.parts import Branch, Each, Errand, Kept, Part, Settle, errands, walk
+from executive.trees.parts import Branch, Each, Errand, Part, Settle, errands, walk
 from intents import goals
 from intents.relations import Viewpoint
 from intents.state import RobotState
 from robot import messages as m
 from robot.failures import Failure
 from robot.se3 import SE3
-from tests.fakes.worlds import JUNO, Mapped, MappedWorld
-
-COUNTER_M = 0.9
-"""Height of the surfaces."""
-
-
-def _map() -> m.WorldMap:
-    """A kitchen with a counter before its north wall, a table in the middle, a door to the hall."""
-
-    def surface(name: str, x_m: float, y_m: float, **more: object) -> m.Place:
-        return m.Place(
-            id=name, name=name, X_WP=SE3((x_m, y_m, COUNTER_M)), size_m=(2.0, 0.6), room="kitchen",
-            **more,  # type: ignore[arg-type]
-        )  # fmt: skip
-
-    def thing(object_id: str, name: str, category: str, color: str) -> m.ObjectInfo:
-        shape = m.Shape(kind="cylinder", size_m=(0.07, 0.07, 0.1))
-        return m.ObjectInfo(
-            id=object_id, name=name, category=category, color=color, shape=shape, mass_kg=0.2
-        )
-
-    def floor(name: str, x_m: float, room: str) -> m.Place:
-        return m.Place(
-            id=name, name=name, X_WP=SE3((x_m, 0, 0)), size_m=(6, 6), room=room, floor=True
-        )
-
-    return m.WorldMap(
-        stamp_s=0.0,
-        name="a kitchen and a hall",
-        obstacles=(),
-        places=(
-            surface("counter", 0.0, 2.5),
-            surface("table", 0.0, 0.0),
-            *_rack(),
-            floor("kitchen", 0.0, "kitchen"),
-            floor("hall", 6.0, "hall"),
-            m.Place(id="door", name="front door", X_WP=SE3((8.0, 0, 0)), size_m=(0.6, 0.6),
-                    room="hall", floor=True),
-        ),
-        objects=(
-            thing("red", "mug", "mug", "red"),
-            thing("blue", "mug", "mug", "blue"),
-            thing("green", "mug", "mug", "green"),
-            thing("oil", "oil bottle", "bottle", ""),
-            thing("wine", "wine bottle", "bottle", ""),
-            thing("tea", "tea box", "box", ""),
-        ),
-        people=(m.PersonInfo(id="mia", name="mia", X_WO=SE3((2.0, -2.0, 0.0))),),
-        categories={"mug": "mugs", "bottle": "bottles", "box": "boxes"},
-        bounds_m=(-4, -4, 10, 4),
-    )  # fmt: skip
-
-
-def _rack() -> tuple[m.Place, ...]:
-    """Two boards; as a whole it is the lower one by another name."""
-    heights_m = {"lower rack": 0.5, "upper rack": COUNTER_M, "rack": 0.5}
-    return tuple(
-        m.Place(
-            id=name.replace(" ", "_"), name=name, X_WP=SE3((-3.0, 0.0, height_m)), of="rack",
-            size_m=(0.4, 1.0), clearance_m=0.38, room="kitchen",
-        )
-        for name, height_m in heights_m.items()
-    )  # fmt: skip
-
-
-class _Kitchen(MappedWorld):
-    def __init__(self) -> None:
-        super().__init__("kitchen")
-        self.map = _map()
-
-
-WHERE = Setting(reality=Mapped(), world=_Kitchen(), description=JUNO, robot_name="juno")
-
-
-def understood(text: str) -> Understood:
-    outcome = request(text, WHERE)
-    assert not isinstance(outcome, Refused), outcome
-    return outcome
-
-
-def parts(text: str, kind: type) -> list[Part]:
-    return [part for _, part in walk(understood(text).task) if isinstance(part, kind)]
-
-
-def board(
-    *,
-    at: tuple[float, float] = (0.0, 1.0),
-    left: str = "",
-    given: str = "",
-    looked: tuple[m.Looked, ...] = (),
-    **things: tuple[float, float],
-) -> Blackboard:
-    """What is believed: the robot at a point, things at points of the surface they are over.
-
-    `left` is in the left hand; `given` was given to Mia.
-    """
-    blackboard = Blackboard()
-    tracks = tuple(
-        m.Track(id=name, X_WO=SE3((x_m, y_m, COUNTER_M + 0.05)), seen_s=1.0)
-        for name, (x_m, y_m) in things.items()
-    )
-    X_WB = SE3.from_xy_yaw(*at, 0.5 * math.pi)
-    state = m.WorldState(
-        stamp_s=1.0, X_WN=SE3(), X_WB=X_WB, fix_age_s=0.0, tracks=tracks, looked=looked
-    )
-    sense = blackboard.claim("sense")
-    sense.set(WORLD, state)
-    sense.set(HELD, {"left": left} if left else {})
-    sense.set(GIVEN, {given: "mia"} if given else {})
-    return blackboard
-
+from tests.fakes.mugs import (
+    OIL,
+    SEEN,
+    WHERE,
+    MugKitchen,
+    board,
+    parts,
+    understood,
+)
 
 # --- how many -----------------------------------------------------------------------------------
 
@@ -176,7 +71,7 @@ def test_a_count_of_all_there_are_looks_over_every_room(said):
     chest = m.Place(
         id="chest", name="chest", X_WP=SE3((6.0, 2.0, 0.8)), size_m=(0.4, 0.8), room="hall"
     )
-    world = _Kitchen()
+    world = MugKitchen()
     world.map = msgspec.structs.replace(world.map, places=(*world.map.places, chest))
     outcome = request(said, msgspec.structs.replace(WHERE, world=world))
     assert isinstance(outcome, Understood)
@@ -200,7 +95,7 @@ def test_of_several_what_is_there_already_stays(to):
 
 
 def test_of_several_the_ones_that_can_be_handled_are_enough_to_begin():
-    kitchen = _Kitchen()
+    kitchen = MugKitchen()
     heavy = msgspec.structs.replace(kitchen.map.objects[0], mass_kg=9.0)
     kitchen.map = msgspec.structs.replace(kitchen.map, objects=(heavy, *kitchen.map.objects[1:]))
     where = msgspec.structs.replace(WHERE, world=kitchen)
@@ -213,16 +108,6 @@ def test_more_than_there_are_is_refused():
 
 
 # --- which --------------------------------------------------------------------------------------
-
-OIL = (0.0, 2.4)
-SEEN = {
-    "behind the oil bottle": (0.0, 2.62),
-    "in front of the oil bottle": (0.0, 2.24),
-    "left of the oil bottle": (-0.2, 2.4),
-    "right of the oil bottle": (0.2, 2.4),
-    "next to the oil bottle": (0.15, 2.45),
-    "between the oil bottle and the wine bottle": (0.4, 2.42),
-}
 
 
 @pytest.mark.parametrize(("said", "spot"), SEEN.items())
@@ -323,125 +208,7 @@ def test_what_is_known_of_all_is_not_looked_for_again():
     assert picked == ["red"]
 
 
-# --- where to put it ----------------------------------------------------------------------------
-
-
-def put(text: str, blackboard: Blackboard) -> PlaceParams:
-    """What the skill is asked for by the end of a sentence."""
-    *_, last = (e for e in errands(understood(text).task) if e.carries)
-    assert callable(last.params)
-    params = last.params(blackboard)
-    assert isinstance(params, PlaceParams), params
-    return params
-
-
-@pytest.mark.parametrize(("said", "spot"), SEEN.items())
-def test_beside_a_thing_is_where_it_would_be_called_so(said, spot):
-    seen = board(oil=OIL, wine=(0.8, 2.4))
-    params = put(f"put the red mug {said}", seen)
-    assert params.place_id == "counter"
-    (asked,) = parts(f"take the mug {said}", Settle)
-    for x_m, y_m in params.spots:
-        assert asked.question(board(oil=OIL, wine=(0.8, 2.4), red=(x_m, y_m))) == ("red",)
-        if "between" not in said:
-            assert 0.07 < math.dist((x_m, y_m), OIL) <= 0.3
-    assert len(params.spots) >= 5
-
-
-def test_the_landmark_is_found_before_a_thing_is_put_beside_it():
-    names = [e.name for e in errands(understood("put the red mug next to the oil bottle").task)]
-    assert names.index("find the oil bottle") < len(names) - 1
-    unseen = board()
-    *_, last = (e for e in errands(understood("put the red mug next to the oil bottle").task))
-    assert isinstance(last.params(unseen), Failure)
-
-
-@pytest.mark.parametrize(
-    ("part", "holds"),
-    [
-        ("in the middle of", lambda x, y: math.hypot(x, y) < 0.2),
-        ("at the other end of", lambda x, y: x > 0.4),  # the robot stands at the near one
-        ("at the edge of", lambda x, y: min(1.0 - abs(x), 0.3 - abs(y)) < 0.13),
-    ],
-)
-def test_a_part_of_a_surface_is_that_part(part, holds):
-    params = put(f"put the red mug {part} the table", board(at=(-1.0, -0.8)))
-    assert params.spots
-    assert all(holds(x_m, y_m) for x_m, y_m in params.spots)
-
-
-@pytest.mark.parametrize("said", ["bring the red mug to the front door", "take {} to the hall"])
-def test_a_spot_of_the_floor_is_a_place_to_be_with_a_thing(said):
-    outcome = understood(said.format("the red mug"))
-    *_, go, tell = errands(outcome.task)
-    assert isinstance(go.params, NavigateParams)
-    assert isinstance(tell.params, SayParams)
-    assert "red mug" in tell.params.text
-    assert outcome.holds == ("red",)
-
-
-def test_a_room_with_furniture_is_a_place_to_put_things():
-    *_, last = errands(understood("bring the red mug to the kitchen").task)
-    assert isinstance(last.params, PlaceParams)
-    assert last.params.place_id in ("counter", "table")
-
-
-def put_where(believed: Blackboard) -> Part:
-    """What "put the red mug on the table" means when that is believed."""
-    goal = goals.Place(object=goals.ObjectQuery(name="red"), on="table")
-    state = state_of(believed, WHERE.knowledge)
-    held = tuple(believed.read(HELD).values())
-    found = meant("put the red mug on the table", (goal,), WHERE, held=held, state=state)
-    assert isinstance(found, Understood), found
-    return found.task
-
-
-def test_what_is_believed_to_be_there_already_is_left_there_and_told():
-    (branch,) = (
-        part for _, part in walk(put_where(board(red=(0.2, 0.1)))) if isinstance(part, Branch)
-    )
-    assert branch.question(board(red=(0.2, 0.1)))
-    (tell,) = errands(branch.then)
-    assert isinstance(tell.params, SayParams)
-    assert tell.params.text == "The red mug is on the table already."
-    assert not branch.question(board(red=(0.2, 2.5)))
-    assert [type(one.params) for one in errands(branch.otherwise)] == [PickParams, PlaceParams]
-
-
-@pytest.mark.parametrize("believed", [board(red=(0.2, 2.5)), board(left="red"), board()])
-def test_what_is_elsewhere_or_in_the_hand_is_put_without_a_question(believed):
-    assert not [part for _, part in walk(put_where(believed)) if isinstance(part, Branch)]
-
-
-@pytest.mark.parametrize(
-    "goal",
-    [
-        goals.Pick(object=goals.ObjectQuery(name="red")),
-        goals.Place(object=goals.ObjectQuery(name="red"), on="table"),
-        goals.Bring(object=goals.ObjectQuery(name="red"), to=goals.Person(who="operator")),
-    ],
-)
-def test_what_somebody_has_is_not_taken_from_them(goal):
-    believed = board(given="red")
-    state = state_of(believed, WHERE.knowledge)
-    refused = meant("do it", (goal,), WHERE, state=state)
-    assert isinstance(refused, Refused)
-    assert (refused.reason, refused.suggestion) == ("mia has the red mug", "ask mia to put it down")
-
-
 # --- the end ------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("text", ["collect all mugs and put them on the table",
-                                  "pick up all mugs and bring them to the table"])  # fmt: skip
-def test_who_takes_all_and_puts_them_somewhere_leaves_those_that_are_there(text):
-    """A book that was in place was taken out of its shelf and put back."""
-    asked = [part for part in parts(text, Branch) if "there already" in part.name]
-    assert {part.name for part in asked} == {
-        f"is the {color} mug there already" for color in ("red", "blue", "green")
-    }
-    assert all(part.question(board(red=(0.1, 0.0))) for part in asked if "red" in part.name)
-    assert not any(part.question(board(blue=(0.1, 2.5))) for part in asked if "blue" in part.name)
 
 
 def test_of_several_things_only_those_are_looked_for_that_nobody_has_seen():
@@ -461,35 +228,6 @@ def test_of_several_things_only_those_are_looked_for_that_nobody_has_seen():
         assert not branch.question(board())
 
 
-@pytest.mark.parametrize(
-    ("text", "checked"),
-    [
-        ("put the red mug on the table", True),
-        ("pick up the red mug", True),
-        ("go to the table", False),
-        ("find all mugs", False),
-    ],
-)
-def test_what_is_put_down_is_compared_at_the_end(text, checked):
-    assert bool(parts(text, Kept)) is checked
-
-
-def test_what_fell_or_was_taken_away_is_named():
-    (part,) = parts("put the red mug on the table", Kept)
-    assert isinstance(part, Kept)
-    put_down = {"red": "table"}
-    assert part.gone(board(red=(0.2, 0.1)), put_down, ()) == []
-    assert part.gone(board(red=(0.2, 2.5)), put_down, ()) == ["the red mug on the table"]
-    assert part.gone(board(), put_down, ()) == []
-
-
-def test_what_was_taken_and_is_not_held_is_named():
-    (part,) = parts("pick up the red mug", Kept)
-    assert isinstance(part, Kept)
-    assert part.gone(board(red=(0.2, 0.1)), {}, {"red"}) == ["the red mug in the hand"]
-    assert part.gone(board(left="red"), {}, {"red"}) == []
-
-
 def test_a_count_in_a_room_says_what_could_not_be_seen():
     look, tell = understood("how many boxes are there in the kitchen?").task.parts[0].parts
     assert dict(look.handlers).keys() == {"place_not_seen"}  # the top of the fridge, say
@@ -497,7 +235,7 @@ def test_a_count_in_a_room_says_what_could_not_be_seen():
     assert told.startswith("I see 0 boxes in the kitchen. I have not seen all of the ")
 
 
-def _counting(world: _Kitchen, *, at_x_m: float) -> list[tuple[str, Part]]:
+def _counting(world: MugKitchen, *, at_x_m: float) -> list[tuple[str, Part]]:
     goal = goals.Count(object=goals.ObjectQuery(name="tea box"))
     state = RobotState(view=Viewpoint(x_m=at_x_m, y_m=0.0, yaw_rad=0.0))
     where = msgspec.structs.replace(WHERE, world=world)
@@ -506,9 +244,9 @@ def _counting(world: _Kitchen, *, at_x_m: float) -> list[tuple[str, Part]]:
     return list(walk(outcome.task))
 
 
-def _with_a_cellar() -> _Kitchen:
+def _with_a_cellar() -> MugKitchen:
     """North of the kitchen, with a bench."""
-    world = _Kitchen()
+    world = MugKitchen()
     table, hall = world.map.place("table"), world.map.place("hall")
     assert table is not None
     assert hall is not None
@@ -577,19 +315,6 @@ def test_what_is_counted_is_said_in_the_worlds_own_plural():
     assert callable(tell.params)
     assert tell.params(board()).text == "I see 0 boxes on the counter."
     assert tell.params(board(tea=(0.0, 2.5))).text == "I see 1 box on the counter."
-
-
-def test_what_was_taken_from_beside_something_is_put_where_it_goes():
-    """The place that it goes to is said with it: "put it in the kitchen on the table"."""
-    beside = goals.Relation(how="near", of=goals.ObjectQuery(name="tea box"))
-    mug = goals.ObjectQuery(name="mug", relation=beside)
-    put = goals.Place(object=msgspec.structs.replace(mug, at="kitchen"), on="table")
-    outcome = meant("", (goals.Pick(object=mug), put), WHERE)
-    assert isinstance(outcome, Understood)
-    (settle,) = [part for _, part in walk(outcome.task) if isinstance(part, Settle)]
-    assert isinstance(settle.then(("blue",)), Part)
-    done = [type(one.params) for one in errands(settle.then(("blue",)))]
-    assert done == [PickParams, PlaceParams]
 
 
 # --- looking --------------------------------------------------------------------------------------

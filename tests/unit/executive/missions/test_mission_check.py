@@ -7,9 +7,6 @@ from pathlib import Path
 
 import jsonschema
 import pytest
-import yaml
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 from executive.frontends.missions import commands
 from executive.missions.check import Options
@@ -17,7 +14,6 @@ from executive.missions.load import FOLDER, load, shipped
 from executive.missions.plan import forecast
 from executive.missions.problems import Problems
 from executive.missions.template import template
-from executive.skills.inspect import InspectParams
 from executive.skills.navigate import NavigateParams
 from executive.skills.pick import PickParams
 from executive.skills.say import SayParams
@@ -25,36 +21,8 @@ from executive.skills.wait import WaitParams
 from executive.trees import parts as p
 from robot.errors import ConfigError
 from robot.files import yaml_nodes
-from tests.fakes.machine import in_paces
+from tests.fakes.checked_missions import leaves, mission, problems
 from tests.fakes.missions import check, known_settings  # noqa: F401, a fixture
-
-SECOND = 2500
-"""In paces, as no test is to fail because the machine is slow or busy (tests/fakes/machine.py)."""
-
-
-@pytest.fixture
-def write(tmp_path):
-    def _write(text: str, name: str = "it.yaml"):
-        path = tmp_path / name
-        path.write_text(text, encoding="utf-8")
-        return path
-
-    return _write
-
-
-def mission(steps: str, more: str = "") -> str:
-    return f"name: it\n{more}steps:\n{steps}"
-
-
-def leaves(part: p.Part) -> list[p.Part]:
-    return [node for _, node in p.walk(part) if isinstance(node, p.Leaf)]
-
-
-def problems(path, **options) -> list[str]:
-    with pytest.raises(ConfigError) as error:
-        check(path, Options(**options))
-    return [str(problem).removeprefix(str(path)) for problem in error.value.problems]
-
 
 # --- what is well -------------------------------------------------------------------------------
 
@@ -289,47 +257,6 @@ def test_neither_a_mistake_beside_it_nor_the_world_hides_a_mistake(world, write)
 
 
 @pytest.mark.parametrize(
-    ("steps", "words"),
-    [
-        (
-            "  - wait: 60\n    timeout_s: 59\n",
-            ":4:16: 59 s: what is to be done takes 60 s at least",
-        ),
-        ("  - go_to: {person: Anna}\n    timeout_s: 0.001\n", "takes 0.05 s at least"),
-        ("  - do: [{repeat: 3, do: [wait: 5]}]\n    timeout_s: 14\n", "takes 15 s at least"),
-        ("  - go_to: {by: {forward_m: 2.24}}\n    timeout_s: 3.9\n", "takes 4 s at least"),
-        ("  - parallel: [wait: 5, wait: 7]\n    timeout_s: 6\n", "takes 7 s at least"),
-        ("  - {do: [balance: {mode: squat, duration_s: 9}], timeout_s: 8}\n", "9 s at least"),
-    ],
-)
-def test_a_limit_that_cannot_be_kept_is_a_mistake(steps, words, write):
-    (said,) = problems(write(mission(steps)))
-    assert words in said
-
-
-@pytest.mark.parametrize(
-    "steps",
-    [
-        "  - {wait: 60, timeout_s: 61}\n",
-        "  - {wait: 60, timeout_s: 5, on_fail: {timeout: [nod]}}\n",  # it is meant to end it
-        "  - {do: [{wait: 60, timeout_s: 5}], on_fail: {any: []}}\n",
-        "  - {if: {holding: true}, then: [wait: 60], timeout_s: 5}\n",  # or not at all
-        "  - {while: {holding: true}, at_most: 9, do: [wait: 60], timeout_s: 5}\n",
-        "  - {say: x, timeout_s: 0.001}\n",
-    ],
-)
-def test_a_limit_that_may_be_kept_is_none(steps, write):
-    check(write(mission(steps)))
-
-
-def test_the_limit_of_the_whole_is_held_against_all_steps(write):
-    (said,) = problems(write(mission("  - wait: 40\n  - wait: 30\n", "limits: {duration_s: 60}\n")))
-    assert said.startswith(":2:22: 60 s: what is to be done takes 70 s at least")
-    check(write(mission("  - wait: 40\n  - wait: 30\n", "limits: {duration_s: 60}\n")),
-          Options(first="2"))  # fmt: skip
-
-
-@pytest.mark.parametrize(
     ("one", "other", "both"),
     [
         ("holding: true", "holding: false", False),
@@ -382,139 +309,6 @@ def test_params_have_to_be_known_and_right(write):
     assert problems(path, params={"x": "many"})[0].startswith("--param x: the parameter 'x'")
 
 
-# --- what is hostile ----------------------------------------------------------------------------
-
-BOMB = "a: &a [x, x]\n" + "".join(
-    f"{b}: &{b} [*{a}, *{a}, *{a}, *{a}]\n" for a, b in zip("abcdefgh", "bcdefghi", strict=True)
-)
-HOSTILE = {
-    "nothing": "",
-    "comment": "# nothing\n",
-    "a bomb of aliases": BOMB,
-    "a merge": "name: &x it\nsteps: [<<: *x]\n",
-    "10,000 levels": "name: x\nsteps:\n- " + "{do: [" * 10_000,
-    "10,000 lists": "[" * 10_000,
-    "10,000 dashes": "- " * 10_000,
-    "500,000 values": "name: x\nsteps: [" + "a," * 500_000 + "]",
-    "a long key": "name: x\n" + "k" * 500_000 + ": 1\nsteps: [say: x]\n",
-    "a long text": "name: x\nsteps:\n  - " + "walk " * 100_000,
-    "objects": "name: !!python/object/apply:os.system [x]\nsteps: []\n",
-    "control characters": "name: \x00\x01\n",
-    "many mistakes": "name: x\nsteps:\n" + "  - jump: high\n" * 20_000,
-    "10,000 sentences": "name: x\nsteps:\n"
-    + "".join(f"  - go {n} metres forward\n" for n in range(10_000)),
-    "rounds of rounds": "name: x\nsteps:\n- repeat: 1000\n  do:\n  - repeat: 1000\n"
-    "    do:\n    - repeat: 1000\n      do: [say: x, say: y]\n",
-    "each of each": "name: x\nsteps:\n" + "".join(
-        f"{'    ' * n}- for_each: x{n}\n{'    ' * n}  in: [{', '.join(['table'] * 50)}]\n"
-        f"{'    ' * n}  do:\n" for n in range(5)) + " " * 20 + "- say: x\n",
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", [n for n in HOSTILE if n not in ("rounds of rounds",)])
-def test_hostile_files_are_refused_whole_and_fast(name, write):
-    path = write(HOSTILE[name])
-    check(shipped()[0])  # what is built once a process is built
-    found: list[str] = []
-    assert in_paces(lambda: found.extend(problems(path)), tries=1, warm=True) < 3 * SECOND
-    assert 1 <= len(found) <= 100
-    assert all(len(text) < 600_000 for text in found)
-
-
-def test_rounds_of_rounds_are_no_steps(write):
-    assert check(write(HOSTILE["rounds of rounds"])).task  # built as they come, round by round
-
-
-def test_a_file_of_100_mb_is_not_read(tmp_path):
-    path = tmp_path / "big.yaml"
-    with path.open("wb") as file:
-        file.truncate(100_000_000)
-    assert in_paces(lambda: problems(path), tries=1) < SECOND
-    assert "larger than 2 MB" in problems(path)[0]
-
-
-@pytest.mark.parametrize(
-    ("data", "words"),
-    [
-        (b"\xff\xfen\x00a\x00", "no UTF-8"),
-        (b"name: it\nabout: caf\xe9\nsteps: [say: x]\n", "2:11: this is no UTF-8"),
-        (bytes(range(256)), "no UTF-8"),
-        (b"name: \x07\n", "control character"),
-    ],
-)
-def test_what_is_no_text_is_refused(data, words, tmp_path):
-    path = tmp_path / "it.yaml"
-    path.write_bytes(data)
-    assert words in problems(path)[0]
-
-
-def test_folders_pipes_and_devices_are_refused(tmp_path):
-    for path in (tmp_path, "/dev/zero"):
-        with pytest.raises(ConfigError, match="no ordinary file"):
-            yaml_nodes.read_text(path)
-
-
-def test_10_000_steps_are_checked_in_a_second(write):
-    goals = ["{pick: red cup}", "{place: {object: it, on: table}}", "{say: hello}",
-             "walk to the table", "{go_to: {place: counter}, retry: 1}"]  # fmt: skip
-    path = write(mission("".join(f"  - {step}\n" for step in goals * 2000)))
-    checked = []
-    paces = in_paces(lambda: checked.append(check(path)), tries=2)
-    assert len(list(p.errands(checked[-1].task))) == 10_000
-    assert paces < 2 * SECOND  # 0.6 s on a quiet machine (docs/missions.md)
-
-
-SAMPLES = [path.read_text() for path in shipped()]
-PIECES = ["{", "}", "[", "]", ":", "- ", "\n", "  ", '"', "'", "{{x}}", "&a ", "*a", "!!int ", "\t",
-          "steps:", "do:", "pick: ", "retry: -1", "null", "1e999", "#", "|", ">", "? ", "\x85", "é",
-          "mission: bring", "for_each: x", "parallel:", "not:", "---\n", "%YAML 9\n"]  # fmt: skip
-
-
-@settings(
-    max_examples=100, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
-@given(data=st.data())
-def test_mutated_missions_are_checked_or_refused_but_never_break(data, tmp_path):
-    text = data.draw(st.sampled_from(SAMPLES))
-    for _ in range(data.draw(st.integers(1, 4))):
-        start = data.draw(st.integers(0, len(text)))
-        end = min(len(text), start + data.draw(st.sampled_from([0, 1, 3, 10, 40])))
-        text = text[:start] + data.draw(st.sampled_from(PIECES)) + text[end:]
-    path = tmp_path / "it.yaml"
-    path.write_text(text, encoding="utf-8")
-    try:
-        check(path)
-    except ConfigError as error:
-        assert error.problems
-        assert all(problem.message for problem in error.problems)
-
-
-@settings(
-    max_examples=50, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
-@given(
-    data=st.recursive(
-        st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=8),
-        lambda inner: (
-            st.lists(inner, max_size=3)
-            | st.dictionaries(
-                st.sampled_from(["do", "pick", "if", "then", "retry", "say", "on_fail", "any", "x",
-                                 "parallel", "repeat", "at_most", "while", "name", "object"]),
-                inner, max_size=4,
-            )
-        ),
-        max_leaves=12,
-    )
-)  # fmt: skip
-def test_any_data_for_steps_is_checked_or_refused(data, tmp_path):
-    path = tmp_path / "it.yaml"
-    path.write_text(yaml.safe_dump({"name": "it", "steps": data}), encoding="utf-8")
-    try:
-        check(path)
-    except ConfigError as error:
-        assert error.problems
-
-
 # --- places, and what is wrong all at once --------------------------------------------------------
 
 
@@ -542,47 +336,6 @@ def test_a_parameter_that_is_wrong_is_there_all_the_same(write):
     assert "did you mean 'object'" in found[1]
     assert "no object 'red cpu'" in found[2]
     assert "there is no parameter 'd' here" in found[3]
-
-
-def looks(part: p.Part) -> list[tuple[str, tuple[str, ...]]]:
-    """Path of every look that a task has, and what is looked for."""
-    return [
-        (path, node.params.object_ids)
-        for path, node in p.walk(part)
-        if isinstance(node, p.Errand) and isinstance(node.params, InspectParams)
-    ]
-
-
-def test_the_places_of_a_condition_are_looked_over_before_it_is_decided(write):
-    condition = "{any: [{seen: red cup, on: table}, {not: {seen: box, on: table}}]}"
-    text = mission(f"  - say: x\n  - if: {condition}\n    then: [say: y]\n")
-    found = looks(check(write(text)).task)
-    assert [path for path, _ in found] == ["2.look.1", "2.look.2"]
-    assert found[0][1] != found[1][1]
-
-
-def test_the_places_of_a_loop_are_looked_over_before_every_round(write):
-    text = mission("  - while: {seen: red cup, on: table}\n    at_most: 3\n    do: [say: x]\n")
-    assert [path for path, _ in looks(check(write(text)).task)] == ["1.1", "1.2#1.2"]
-
-
-def test_hands_need_no_look(write):
-    text = mission("  - if: {holding: red cup}\n    then: [say: x]\n")
-    assert looks(check(write(text)).task) == []
-
-
-def test_a_loop_that_is_wrong_keeps_its_name(write):
-    steps = "  - for_each: cup\n    inn: all cups\n    do: [{pick: '{{cup}}'}, {say: '{{cop}}'}]\n"
-    found = problems(write(mission(steps)))
-    assert not any("parameter 'cup'" in text for text in found)
-    assert any("parameter 'cop'" in text for text in found)
-
-
-@pytest.mark.parametrize("speed", [99, 0.57, 0.01, 0])
-def test_a_speed_that_the_robot_does_not_walk_is_refused(speed, write):
-    (found,) = problems(write(mission("  - stand\n", f"limits: {{speed_m_s: {speed}}}\n")))
-    assert "speed_m_s" in found
-    assert ":2:21:" in found
 
 
 FAULTS = [

@@ -12,7 +12,7 @@ from robot.failures import Failure
 from robot.messages import PersonInfo, Piece, Shape, Side
 from robot.planning import handling, trials
 from robot.planning import place as place_planning
-from robot.planning.checks import END, Checker
+from robot.planning.checks import Checker
 from robot.planning.floor import Floor
 from robot.planning.handling_problem import Choice, HandlingProblem
 from robot.planning.requests import (
@@ -20,10 +20,7 @@ from robot.planning.requests import (
     Held,
     ObjectPose,
     PickPlan,
-    PickRequest,
     PlacePlan,
-    PlaceRequest,
-    Stance,
     Surroundings,
 )
 from robot.planning.robot_body import Body
@@ -32,41 +29,24 @@ from robot.planning.solids import solids_of
 from robot.planning.solve import Solver
 from robot.planning.trials import STRAIN_COST
 from robot.se3 import SE3
+from tests.fakes.handling_plans import (
+    BOARD,
+    LYING,
+    TABLE,
+    check_standing,
+    on_a_counter,
+    pick,
+    place,
+    reaches,
+)
 from tests.fakes.planning_room import (
     BOARDS_M,
     CUP,
-    START,
     block,
-    held_cup,
     on_table,
     room,
     surroundings,
 )
-
-LYING = SE3.from_rpy(0.0, math.pi / 2, 0.0, (0.0, 0.0, 0.0))
-BOARD = {board: room().places[1 + i] for i, board in enumerate(BOARDS_M)}
-TABLE = room().places[0]
-
-
-def pick(solver: Solver, around: Surroundings, **more) -> PickPlan | Failure:
-    answer = solver.solve(PickRequest(object_id="cup", around=around, start=START, **more))
-    assert isinstance(answer, PickPlan | Failure)
-    return answer
-
-
-def place(solver: Solver, on, around: Surroundings, **more) -> PlacePlan | Failure:
-    fields = {"place": on, "side": "right", "held": held_cup(), "around": around, "start": START}
-    answer = solver.solve(PlaceRequest(**{**fields, **more}))
-    assert isinstance(answer, PlacePlan | Failure)
-    return answer
-
-
-def on_a_counter(height: float, deep: float) -> Surroundings:
-    """A cup so deep on a counter against a wall, solid to the floor."""
-    counter = block("counter", 1.65, -2.0, (0.90, 1.40, height))
-    wall = block("wall", 2.13, -2.0, (0.04, 1.40, 1.5))
-    cup = ObjectPose(id="cup", shape=CUP, X_WO=SE3((1.2 + deep, -2.0, height + 0.05)))
-    return Surroundings(map=room(counter, wall), objects=(cup,))
 
 
 @pytest.mark.parametrize("turn_rad", [math.pi, 2.6])
@@ -89,44 +69,6 @@ def test_a_mug_that_turns_its_handle_to_the_robot_is_taken(solver: Solver, turn_
     assert isinstance(plan, PickPlan), plan
 
 
-def check_standing(body: Body, around: Surroundings, plan: PickPlan | PlacePlan) -> None:
-    """The stance is free, the standoff has room, the step in between is straight ahead."""
-    solids = solids_of(around)
-    floor = Floor(solids, around.map.bounds_m)
-    assert body.trunk_touch(solids, plan.stance, clearance_m=0.02) is None
-    assert floor.clearance_m(*plan.standoff[:2]) >= body.description.body_radius_m
-    (x0, y0, yaw0), (x1, y1, yaw1) = plan.standoff, plan.stance
-    assert yaw0 == yaw1
-    assert math.atan2(y1 - y0, x1 - x0) == pytest.approx(yaw0, abs=1e-6)
-
-
-def reaches(body: Body, plan: PickPlan | PlacePlan, X_WG: SE3, stance: Stance) -> float:
-    """How far the hand stays short of a pose, from joints near the pre-grasp [m]."""
-    arm = body.arms[plan.side]
-    X_WT = SE3.from_xy_yaw(*stance) @ body.standing(plan.posture, plan.side).X_ST[plan.side]
-    X_TG = X_WT.inverse() @ X_WG
-    start = np.array([plan.pre_rad])
-    solved = arm.chain.solve(X_TG.rotation()[None], np.array([X_TG.p]), start, iterations=60)
-    return float(solved.position_error_m[0])
-
-
-@pytest.mark.parametrize("y", [-0.3, 0.0, 0.3])
-def test_of_a_place_only_the_spots_that_were_asked_for(solver: Solver, y: float) -> None:
-    on = [TABLE.X_WP.apply((0.02 * n, y, 0.0)) for n in range(-4, 5)]
-    spots = tuple((float(p[0]), float(p[1])) for p in on)
-    plan = place(solver, TABLE, surroundings(), spots=spots)
-    assert isinstance(plan, PlacePlan), plan
-    assert min(math.dist(plan.X_WO.p[:2], spot) for spot in spots) < 1e-6
-
-
-def test_spots_that_are_all_off_the_place_are_none(solver: Solver) -> None:
-    off = TABLE.X_WP.apply((5.0, 0.0, 0.0))
-    plan = place(solver, TABLE, surroundings(), spots=((float(off[0]), float(off[1])),))
-    assert isinstance(plan, Failure)
-    assert plan.code == "no_free_spot"
-    assert "where it is wanted" in plan.cause
-
-
 @pytest.mark.parametrize(
     "shape",
     [
@@ -141,23 +83,6 @@ def test_what_lies_flat_on_the_table(solver: Solver, shape: Shape) -> None:
     plan = pick(solver, surroundings(flat))
     assert isinstance(plan, PickPlan), plan
     assert plan.margin > 0.3
-
-
-@pytest.mark.parametrize("lower_m", [0.0, 0.004, 0.008])
-def test_what_lies_flat_is_put_down_though_the_hand_was_lower_than_meant(
-    solver: Solver, lower_m: float
-) -> None:
-    """A hand is a few millimetres off, and its fingertips had eight above the table."""
-    flat = Shape(kind="box", size_m=(0.07, 0.14, 0.03))
-    thing = on_table(-0.1, 0.2, shape=flat)
-    taken = pick(solver, surroundings(thing))
-    assert isinstance(taken, PickPlan)
-    higher = SE3((0.0, 0.0, lower_m)) @ thing.X_WO  # than it is, seen from that hand
-    held = Held(id="cup", shape=flat, X_GO=taken.X_WG_grasp.inverse() @ higher)
-    plan = place(solver, TABLE, surroundings(), held=held, side=taken.side)
-    assert isinstance(plan, PlacePlan), plan
-    foot_m = plan.X_WO.p[2] - 0.5 * flat.size_m[2]
-    assert 0.0 <= foot_m - TABLE.X_WP.p[2] <= 0.011
 
 
 def test_hands_keep_away_from_who_stands_beside(solver: Solver) -> None:
@@ -206,24 +131,6 @@ def test_a_thin_torch_that_lies_on_the_table(solver: Solver, yaw_rad: float) -> 
     plan = pick(solver, surroundings(ObjectPose(id="cup", shape=shape, X_WO=X_WO)))
     assert isinstance(plan, PickPlan), plan
     assert plan.margin > 0.2
-
-
-def test_what_was_taken_from_above_goes_on_a_high_board_when_taken_with_a_leveller_hand(
-    solver: Solver,
-) -> None:
-    low = Shape(kind="box", size_m=(0.05, 0.17, 0.035))
-    remote = on_table(-0.1, 0.2, shape=low)
-    board = BOARD[BOARDS_M[2]]
-    high = msgspec.structs.replace(board, X_WP=SE3((0.0, 0.0, 0.06)) @ board.X_WP)
-    reached: dict[bool, bool] = {}
-    for most_tilt_rad in (math.inf, 0.4):
-        plan = pick(solver, surroundings(remote), most_tilt_rad=most_tilt_rad)
-        assert isinstance(plan, PickPlan), plan
-        assert plan.tilt_rad <= most_tilt_rad
-        held = Held(id="cup", shape=low, X_GO=plan.X_OG.inverse())
-        put = place(solver, high, surroundings(), side=plan.side, held=held)
-        reached[plan.tilt_rad > 0.4] = isinstance(put, PlacePlan)
-    assert reached == {True: False, False: True}
 
 
 @pytest.mark.parametrize(
@@ -490,125 +397,6 @@ def test_the_same_seed_gives_the_same_plan(solver: Solver) -> None:
     pick(solver, surroundings(on_table(-0.2, 0.4)), seed=5)
     assert pick(solver, around, seed=4) == first
     assert pick(Solver(solver.body.description), around, seed=4) == first
-
-
-@pytest.mark.parametrize("height", BOARDS_M)
-def test_a_free_spot_on_every_board(solver: Solver, height: float) -> None:
-    around = surroundings()
-    plan = place(solver, BOARD[height], around)
-    assert isinstance(plan, PlacePlan), plan
-    check_standing(solver.body, around, plan)
-    assert plan.X_WO.p[2] == pytest.approx(height + 0.05)
-    assert plan.X_WO.rotation()[2, 2] == pytest.approx(1.0)
-    assert np.allclose((plan.X_WG_release @ held_cup().X_GO).matrix(), plan.X_WO.matrix())
-    assert 0.015 < plan.X_WG_pre.p[2] - plan.X_WG_release.p[2] < 0.06
-    on = BOARD[height].X_WP.inverse().apply(plan.X_WO.p)
-    assert abs(on[0]) < 0.14 - 0.035
-    assert abs(on[1]) < 0.43 - 0.035
-
-
-def test_other_things_are_left_room(solver: Solver) -> None:
-    others = tuple(on_table(0.0, y, name=f"cup {y}") for y in (-0.4, -0.2, 0.0, 0.2))
-    plan = place(solver, TABLE, surroundings(*others))
-    assert isinstance(plan, PlacePlan)
-    gaps = [math.dist(plan.X_WO.p[:2], other.X_WO.p[:2]) for other in others]
-    assert min(gaps) > 0.14
-
-
-def test_a_wanted_spot_is_kept_to(solver: Solver) -> None:
-    target = on_table(-0.15, 0.3).X_WO
-    plan = place(solver, TABLE, surroundings(), target=target)
-    assert isinstance(plan, PlacePlan)
-    assert plan.X_WO.p == pytest.approx(target.p)
-
-
-def test_a_full_place_has_no_spot(solver: Solver) -> None:
-    full = tuple(
-        on_table(x, y, name=f"cup {x} {y}")
-        for x in (-0.2, 0.0, 0.2)
-        for y in np.arange(-0.5, 0.51, 0.2)
-    )
-    failed = place(solver, TABLE, surroundings(*full))
-    assert isinstance(failed, Failure)
-    assert failed.code == "no_free_spot"
-
-
-def test_a_thing_too_high_for_a_board_is_refused(solver: Solver) -> None:
-    tall = held_cup().__class__(
-        id="cup", shape=Shape(kind="cylinder", size_m=(0.06, 0.06, 0.3)), X_GO=SE3()
-    )
-    failed = place(solver, BOARD[0.60], surroundings(), held=tall)
-    assert isinstance(failed, Failure)
-    assert (failed.code, failed.evidence["height_m"]) == ("no_free_spot", 0.3)
-
-
-def test_an_object_nobody_has_seen(solver: Solver) -> None:
-    failed = pick(solver, surroundings())
-    assert isinstance(failed, Failure)
-    assert failed.code == "object_not_seen"
-
-
-def test_what_the_hand_cannot_hold(solver: Solver) -> None:
-    crate = Shape(kind="box", size_m=(0.3, 0.3, 0.3))
-    failed = pick(solver, surroundings(on_table(0.0, 0.0, shape=crate)))
-    assert isinstance(failed, Failure)
-    assert failed.code == "no_grasp"
-
-
-def test_a_cup_too_high_is_out_of_reach_by_some_amount(solver: Solver) -> None:
-    cup = on_table(0.0, 0.0)
-    high = type(cup)(id="cup", shape=CUP, X_WO=SE3((1.25, 0.8, 1.7)))
-    failed = pick(solver, surroundings(high))
-    assert isinstance(failed, Failure)
-    assert failed.code == "out_of_reach"
-    assert float(failed.evidence["short_m"]) > 0.1
-
-
-def test_a_cup_on_an_island_of_furniture_has_no_stance(solver: Solver) -> None:
-    moat = tuple(
-        block(f"crate {i}", 1.5 + dx, 0.8 + dy, size)
-        for i, (dx, dy, size) in enumerate(
-            [
-                (-0.62, 0.0, (0.6, 2.4, 0.6)),
-                (0.62, 0.0, (0.6, 2.4, 0.6)),
-                (0.0, 0.92, (0.64, 0.6, 0.6)),
-                (0.0, -0.92, (0.64, 0.6, 0.6)),
-            ]
-        )
-    )
-    failed = pick(solver, surroundings(on_table(0.0, 0.0), more=moat))
-    assert isinstance(failed, Failure)
-    assert failed.code == "no_stance"
-
-
-def test_a_cup_in_a_cage_names_the_cage(solver: Solver) -> None:
-    bars = tuple(
-        on_table(dx, dy, name="cage", shape=Shape(kind="box", size_m=(sx, sy, 0.3)))
-        for dx, dy, sx, sy in [
-            (0.06, 0.0, 0.02, 0.16),
-            (-0.06, 0.0, 0.02, 0.16),
-            (0.0, 0.06, 0.16, 0.02),
-            (0.0, -0.06, 0.16, 0.02),
-        ]
-    )
-    failed = pick(solver, surroundings(on_table(0.0, 0.0), *bars))
-    assert isinstance(failed, Failure)
-    assert failed.code == "goal_in_collision"
-    assert "cage" in str(failed.evidence["blocked_by"])
-
-
-@pytest.mark.parametrize(
-    ("blockers", "words"),
-    [
-        (["wall_shelf"], "touches wall shelf"),
-        (["table", "in_view_5"], "touches table or something in the way"),
-        (["unmapped_12", "in_view_5"], "touches something in the way"),
-        ([END], "is at the end of its reach"),
-        (["table", END], "touches table or is at the end of its reach"),
-    ],
-)
-def test_what_is_in_a_hands_way_is_told_without_inner_names(blockers, words) -> None:
-    assert handling._fails_by(blockers) == words
 
 
 def rooms_m(
