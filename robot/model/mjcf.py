@@ -8,6 +8,7 @@ of new names, and whatever stands in other sections, are added as they are.
 
 from __future__ import annotations
 
+import ctypes
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -27,6 +28,11 @@ def _unwritten(_text: str) -> None:
 # Unheard, it goes into MUJOCO_LOG.TXT of the current folder, and through a link that a stranger
 # left there into any file of this user's.
 mujoco.set_mju_user_warning(_unwritten)
+
+MOST_KEPT_BYTES = 160_000_000
+"""Of meshes as they were compiled, which MuJoCo keeps: the G1's take 151 MB, and its next model is
+compiled in 0.2 s in place of 1.3 s. By itself MuJoCo would keep 524 MB of robots of before."""
+mujoco.mj_setCacheCapacity(mujoco.mj_getCache(), MOST_KEPT_BYTES)
 
 SETTINGS = frozenset({"option", "compiler", "inertial"})
 """Elements that an overlay changes rather than repeats."""
@@ -83,9 +89,19 @@ def spec(source: Source) -> mujoco.MjSpec:
 def compiled(source: Source) -> mujoco.MjModel:
     """The robot alone. Raises DescriptionError as `spec` does."""
     try:
-        return spec(source).compile()
+        model = spec(source).compile()
     except ValueError as error:
         raise DescriptionError([_broken(source, error)]) from None
+    if model.nmesh:
+        _give_back()
+    return model
+
+
+def _give_back() -> None:
+    """Return what compiling took to the system: of the G1's meshes glibc keeps 120 MB otherwise."""
+    trim = getattr(ctypes.CDLL(None), "malloc_trim", None)  # no other C library has it
+    if trim is not None:
+        trim(0)
 
 
 def _broken(source: Source, error: Exception) -> Problem:

@@ -13,7 +13,7 @@ import os
 import resource
 import subprocess
 import sys
-from functools import cache
+from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated, Any, TypeAlias
@@ -96,7 +96,7 @@ def _from_anywhere(path: str) -> str:
     return str(Path(path).resolve())
 
 
-@cache
+@lru_cache(maxsize=8)  # the key holds the MJCF itself
 def _tried(source: mjcf.Source, _content: bytes) -> list[tuple[str, str]]:
     """What is wrong, with the cure."""
     command = [sys.executable, "-P", "-c", _CODE, _ROOT, msgspec.json.encode(source).decode()]

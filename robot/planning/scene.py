@@ -254,7 +254,9 @@ class SceneCache:
         return scene
 
 
-_SPECS: dict[mjcf.Source, mujoco.MjSpec] = {}
+MOST_SPECS = 2
+"""Robots whose MJCF is kept: one that is planned for, and another in an evaluation of several."""
+_SPECS: OrderedDict[mjcf.Source, mujoco.MjSpec] = OrderedDict()
 _LOCK = threading.Lock()
 
 
@@ -276,6 +278,9 @@ def _robot_spec(robot: RobotDescription) -> mujoco.MjSpec:
             # be refused.
             spec.compiler.boundmass = spec.compiler.boundinertia = 1e-6
             _SPECS[key] = spec
+            while len(_SPECS) > MOST_SPECS:
+                _SPECS.popitem(last=False)
+        _SPECS.move_to_end(key)
         return _SPECS[key].copy()
 
 
