@@ -11,8 +11,10 @@ of its file runs it.
 """
 
 import fcntl
+import math
 import os
 import sys
+from collections import Counter
 from collections.abc import Generator
 from pathlib import Path
 
@@ -62,17 +64,43 @@ def pytest_configure(config: pytest.Config) -> None:
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Leave out the rest unless it is asked for, and put first what would be a long tail.
 
-    Workers take file by file: what has the machine alone, what takes long, then the many small.
+    Workers take file by file: what has the machine alone, then what took longest the last time, or
+    where nobody knows, what usually takes long.
     """
     if not _asks_for_all(config):
         rest = [item for item in items if item.get_closest_marker("rest")]
         config.hook.pytest_deselected(items=rest)
         items[:] = [item for item in items if not item.get_closest_marker("rest")]
     if hasattr(config, "workerinput"):
-        places: dict[Path, int] = {}
+        took_s = config.cache.get(TOOK, {})
+        places: dict[Path, float] = {}
         for item in items:
-            places[item.path] = min(places.get(item.path, len(LENGTHS)), _place(item))
-        items.sort(key=lambda item: places[item.path])
+            known_s = took_s.get(_file(item.nodeid))
+            place = math.inf if _is_live(item) else known_s or _usual_s(item)
+            places[item.path] = max(places.get(item.path, 0.0), place)
+        items.sort(key=lambda item: -places[item.path])
+
+
+_took_s: Counter[str] = Counter()
+"""By file, in the process that hands out the tests."""
+
+
+def pytest_runtest_logreport(report: pytest.TestReport) -> None:
+    """Note how long it took."""
+    _took_s[_file(report.nodeid)] += report.duration
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Keep what the files took, if all of each was run."""
+    config = session.config
+    is_part = bool(config.getoption("keyword") or any(".py" in word for word in config.args))
+    if not (hasattr(config, "workerinput") or is_part or config.getoption("collectonly")):
+        before = config.cache.get(TOOK, {})
+        config.cache.set(TOOK, before | {name: round(s, 1) for name, s in _took_s.items()})
+
+
+def _file(nodeid: str) -> str:
+    return nodeid.partition("::")[0]
 
 
 def _asks_for_all(config: pytest.Config) -> bool:
@@ -80,15 +108,15 @@ def _asks_for_all(config: pytest.Config) -> bool:
     return bool(named or config.getoption("everything") or config.getoption("keyword"))
 
 
-LENGTHS = ("live", "scenario", "hostile", "contract")
-"""What is begun first: tests of that mark, or of that folder."""
+TOOK = "machine/took_s"
+"""Seconds that each file took the last time, in pytest's cache."""
+USUAL_S = {"scenario": 30.0, "hostile": 20.0, "contract": 10.0, "planning": 10.0, "training": 10.0}
+"""Of a file somewhere below such a folder [s]."""
 
 
-def _place(item: pytest.Item) -> int:
-    if _is_live(item):
-        return 0
+def _usual_s(item: pytest.Item) -> float:
     folders = item.path.relative_to(item.config.rootpath).parts
-    return next((k for k, name in enumerate(LENGTHS) if name in folders), len(LENGTHS))
+    return next((s for name, s in USUAL_S.items() if name in folders), 1.0)
 
 
 def _is_live(item: pytest.Item) -> bool:
