@@ -25,7 +25,7 @@ def load(name_or_path: str) -> World:
     if config.names_file(name_or_path):
         return world_reading.read(Path(name_or_path))
     if name_or_path not in available():
-        hint = config.nearest(name_or_path, available())
+        hint = f"{config.nearest(name_or_path, available())}; a home from a seed: flat:7"
         raise ConfigError([Problem(f"unknown world {name_or_path!r}", suggestion=hint)])
     return world_reading.read(_folder() / f"{name_or_path}.yaml")
 

@@ -13,7 +13,7 @@ import msgspec
 from executive.frontends import namesakes
 from executive.frontends.output import say, write_json
 from executive.journal import failures
-from robot.errors import ConfigError, Problem, RobotError
+from robot.errors import ConfigError, DriverError, Problem, RobotError
 from robot.exit_status import ExitStatus
 
 if TYPE_CHECKING:
@@ -45,6 +45,9 @@ def ended_by(error: BaseException, *, as_json: bool) -> int:
         problems = [str(problem) for problem in error.problems]
         cure = _cure(error.problems, as_json=as_json)
         return last_words("Not done:", problems, cure, status=ExitStatus.INVALID, as_json=as_json)
+    if isinstance(error, DriverError):
+        cure = "see to that device, then try again (docs/hardware.md)"
+        return last_words("Broken:", [str(error)], cure, status=ExitStatus.BROKEN, as_json=as_json)
     if isinstance(error, RobotError):
         cure = "try again; humanoid doctor says whether something is missing"
         return last_words("Broken:", [str(error)], cure, status=ExitStatus.BROKEN, as_json=as_json)

@@ -102,6 +102,8 @@ def check(
         if len(problems) == 0:
             raise
         raise ConfigError(_merged(problems, error)) from None
+    if len(problems) and checked is not None:  # a word taken for another may be the cause
+        raise ConfigError([*problems.all, *checked.notes])
     problems.raise_any()
     assert checked is not None
     return checked

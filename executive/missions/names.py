@@ -198,13 +198,26 @@ class Names:
     def _condition(self, text: str) -> goals.Condition:
         said = " ".join(text.split()).removeprefix("if ").rstrip(".")
         order = f"if {said}, squat"  # whatever needs no words of its own
-        found = self._sentence(order)
+        try:
+            found = self._sentence(order)
+        except Wrong as wrong:
+            raise self._no_condition(text, wrong.message.replace(f"{said}, squat", said)) from None
         if order in self._reasons:
             self._reasons[text] = self._reasons[order]
         squat = (goals.Balance(mode="squat"),)
         if len(found) == 1 and isinstance(found[0], goals.If) and found[0].then == squat:
             return found[0].condition
-        raise Wrong(f"{text!r} is no condition", "for example: the red cup is on the table")
+        raise self._no_condition(text, "")
+
+    def _no_condition(self, text: str, why: str) -> Wrong:
+        """What is wrong with a text that says of nothing whether it is so."""
+        outcome = parser.parse(text, self._vocabulary, context=self._context)
+        if isinstance(outcome, Goals):
+            whither = (goal.place for goal in outcome.goals if isinstance(goal, goals.GoTo))
+            place = next((place for place in whither if place), "table")
+            cure = f"say what is so then: the red cup is on the table, or {{robot_at: {place}}}"
+            return Wrong(f"{text!r} is no condition: it is something to do", cure)
+        return Wrong(why or f"{text!r} is no condition", "for example: the red cup is on the table")
 
     def _hint(self, text: str) -> str:
         """A cure for a sentence: what skill it may have meant."""

@@ -11,19 +11,23 @@ from __future__ import annotations
 
 import errno
 import math
+import os
 import re
 from collections.abc import Iterable, Iterator
+from itertools import islice
 from pathlib import Path
 from typing import Any, Literal, cast
 
 import yaml
 
 from robot.errors import ConfigError, Problem
-from robot.files import yaml_words
+from robot.files import misfits, yaml_words
 from robot.files.ordinary_files import read_ordinary
 from robot.printable import is_printable, printable
 
 MAX_BYTES = 2_000_000
+MOST_BESIDE = 1000
+"""Names in a folder that are looked at for one that was meant."""
 MAX_DEPTH = 60
 MAX_NODES = 150_000
 MAX_TEXT = 10_000
@@ -132,6 +136,16 @@ def of_data(data: object, like: Node) -> Node:
     return text_node("" if data is None else str(data), like, plain=not isinstance(data, str))
 
 
+def _beside(path: Path) -> str:
+    """A cure for a file that is not there: one beside it that is called nearly so."""
+    try:
+        names = [entry.name for entry in islice(os.scandir(path.parent), MOST_BESIDE)]
+    except OSError:
+        return "check the path"
+    near = misfits.closest(path.name, [name for name in names if is_printable(name)])
+    return f"did you mean {str(path.with_name(near))!r}?" if near else "check the path"
+
+
 def read_text(path: Path | str, *, limit: int = MAX_BYTES) -> str:
     """A text file, if it can be meant to be one.
 
@@ -142,7 +156,7 @@ def read_text(path: Path | str, *, limit: int = MAX_BYTES) -> str:
     try:
         data = read_ordinary(path, limit=limit)
     except FileNotFoundError:
-        raise _refusal(path, "there is no such file", "check the path") from None
+        raise _refusal(path, "there is no such file", _beside(path)) from None
     except OSError as error:
         cure = "split it up" if error.errno == errno.EFBIG else "name a file"
         raise _refusal(path, f"cannot be read: {error.strerror}", cure) from None

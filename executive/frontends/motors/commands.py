@@ -101,6 +101,10 @@ def check(asked: Check) -> int:
         say(f"The chips of {found.joints} servos answer{label}; the servos say nothing.")
     elif found.is_grave:
         say("Not one motor may be enabled before that is put right.")
+    elif any(one.code == "late" for one in found.findings):
+        say(
+            f"All {found.joints} motors are what the map says{label}; not all replies came in time."
+        )
     else:
         say(f"All {found.joints} motors are what the map says{label}.")
     return status

@@ -67,7 +67,7 @@ def history(*, count: int, as_json: bool, everywhere: bool = False) -> int:
     if screen.width < NARROW_COLUMNS:
         _list(shown, located=everywhere)
     else:
-        screen.print(_table(shown, located=everywhere))
+        screen.print(_table(shown, located=everywhere, fills=screen.is_terminal))
     if len(known) > len(shown):
         say(f"{len(known) - len(shown)} older ones: humanoid history --all")
     return ExitStatus.DONE
@@ -175,8 +175,9 @@ def _called(name: str) -> str:
     return stamp[0] if stamp else name
 
 
-def _table(shown: Iterable[Past], *, located: bool) -> Table:
-    table = Table(box=None, pad_edge=False, header_style="bold", expand=True)
+def _table(shown: Iterable[Past], *, located: bool, fills: bool) -> Table:
+    """The runs; `fills`: as wide as the terminal, and else no wider than what stands in it."""
+    table = Table(box=None, pad_edge=False, header_style="bold", expand=fills)
     table.add_column("run", no_wrap=True, min_width=15)
     table.add_column("took", no_wrap=True, min_width=5, justify="right")
     table.add_column("", no_wrap=True, min_width=4, style="dim")

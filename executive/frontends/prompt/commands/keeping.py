@@ -19,6 +19,7 @@ WIDE_COLUMNS = 120
 def commands(shell: Shell) -> tuple[Command, ...]:
     """Every one of them, in the order in which `help` shows them."""
     does = _Keeping(shell)
+    skills = [skill.name for skill in SKILLS]
     return (
         Command(
             name="save", usage="save mission FILE", summary="keep what was done as a mission",
@@ -28,8 +29,8 @@ def commands(shell: Shell) -> tuple[Command, ...]:
         Command(
             name="help", usage="help [COMMAND | skills]",
             summary="this list, or one command, or what the robot can do",
-            run=does.help, accepts=lambda rest: rest in ("", "skills", *shell.commands),
-            choices=lambda: ("skills", *shell.commands), kind="command",
+            run=does.help, choices=lambda: ("skills", *shell.commands), kind="command",
+            accepts=lambda rest: rest in ("", "skills", *shell.commands, *skills),
         ),
         Command(
             name="quit", usage="quit", summary="stop, and leave (also Ctrl-D)", run=does.quit
@@ -55,8 +56,12 @@ class _Keeping:
     def help(self, rest: str) -> None:
         commands = self._shell.commands
         if rest == "skills":
+            width = max(len(skill.name) for skill in SKILLS)
             for skill in SKILLS:
-                self._shell.out(f"  {skill.name:10} {skill.summary}")
+                self._shell.out(f"  {skill.name:{width}} {skill.summary}")
+            return
+        if skill := next((one for one in SKILLS if one.name == rest), None):
+            self._shell.out(f"{skill.name} is a skill, which sentences lead to.\n  {skill.summary}")
             return
         if rest:
             self._shell.out(f"{commands[rest].usage}\n  {commands[rest].summary}")
