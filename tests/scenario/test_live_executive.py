@@ -20,13 +20,16 @@ WORDS = "say hello, then put the red cup on the sideboard"
 
 
 class Run:
-    """A live run of a sentence in the world `bench`."""
+    """A live run of a sentence in the world `bench`.
+
+    An oracle sees for it: perception is not killed, and own eyes take a third of the machine.
+    """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.job = subprocess.Popen(
-            [sys.executable, "-m", "executive", "do", WORDS, "--world", "bench", "--json",
-             "--run-dir", str(folder)],
+            [sys.executable, "-m", "executive", "do", WORDS, "--world", "bench",
+             "--eyes", "oracle", "--json", "--run-dir", str(folder)],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
         )  # fmt: skip
 
