@@ -94,7 +94,8 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
     """Keep what the files took, if all of each was run."""
     config = session.config
     is_part = bool(config.getoption("keyword") or any(".py" in word for word in config.args))
-    if not (hasattr(config, "workerinput") or is_part or config.getoption("collectonly")):
+    is_told = not hasattr(config, "workerinput") and hasattr(config, "cache")
+    if is_told and not (is_part or config.getoption("collectonly")):
         before = config.cache.get(TOOK, {})
         config.cache.set(TOOK, before | {name: round(s, 1) for name, s in _took_s.items()})
 
