@@ -389,6 +389,13 @@ class ControlLoop:
 
     # --- what it knows -------------------------------------------------------------------------
 
+    @property
+    def is_lowered(self) -> bool:
+        """Whether it has squatted for an alarm, on both feet, and is at rest there."""
+        if not self._started or self._lowering.reason is None or self.mode != "stand":
+            return False
+        return self.legs.activity.status == "done"
+
     def state(self) -> BodyState:
         """The newest state; call after the first tick."""
         body, data, state = self.body, self.dynamics.data, self._sample.motors

@@ -35,6 +35,7 @@ class Signs(NamedTuple):
         silent_s: no command came that is still good, since one did.
         claimed_s: a process that lives has claimed the motors, or had until `FREE_S` ago.
         astray_s: the robot does not stand on both feet, near a posture of its squat.
+        on_feet_s: it is upright, a foot bears it, and the owner can lower it from a step.
         lowering_s: it is being lowered.
         seated_s: the motion that lowers it has ended.
         damping_s: its motors damp.
@@ -45,6 +46,7 @@ class Signs(NamedTuple):
     silent_s: float = 0.0
     claimed_s: float = 0.0
     astray_s: float = 0.0
+    on_feet_s: float = 0.0
     lowering_s: float = 0.0
     seated_s: float = 0.0
     damping_s: float = 0.0
@@ -106,6 +108,10 @@ REARM = "look at the robot, then `humanoid motors rearm`"
 LOST = (Term("silent_s", HOLDS_S), Term("claimed_s", is_not=True))
 SILENT = (Term("silent_s", AT_MOST_S),)
 STANDS, ASTRAY = Term("astray_s", is_not=True), Term("astray_s")
+IN_A_STEP = (ASTRAY, Term("on_feet_s"))
+DOWN = (ASTRAY, Term("on_feet_s", is_not=True))
+BALANCED = frozenset({"controller_lost_in_a_step", "controller_silent_in_a_step"})
+"""Rows from which the robot is lowered by a controller of the owner's own."""
 
 ROWS: tuple[Row, ...] = (
     Row(
@@ -124,17 +130,29 @@ ROWS: tuple[Row, ...] = (
         REARM, (*SILENT, STANDS), below=Level.SIT,
     ),
     Row(
-        "controller_lost_astray", Level.DAMP,
-        "as `controller_lost`, and it does not stand: in a step, lying",
-        REARM, (*LOST, ASTRAY), below=Level.SIT,
+        "controller_lost_in_a_step", Level.SIT,
+        "as `controller_lost`, but it steps, or moves, upright, and a foot bears it: a controller "
+        "of the owner's own ends the step first",
+        REARM, (*LOST, *IN_A_STEP), below=Level.SIT,
     ),
     Row(
-        "controller_silent_astray", Level.DAMP, "as `controller_silent`, and it does not stand",
-        REARM, (*SILENT, ASTRAY), below=Level.SIT,
+        "controller_silent_in_a_step", Level.SIT, "as `controller_silent`, but it steps",
+        REARM, (*SILENT, *IN_A_STEP), below=Level.SIT,
+    ),
+    Row(
+        "controller_lost_astray", Level.DAMP,
+        "as `controller_lost`, and it is not on its feet: lying, falling",
+        REARM, (*LOST, *DOWN), below=Level.SIT,
+    ),
+    Row(
+        "controller_silent_astray", Level.DAMP,
+        "as `controller_silent`, and it is not on its feet",
+        REARM, (*SILENT, *DOWN), below=Level.SIT,
     ),
     Row(
         "tipping", Level.DAMP,
-        f"while it is lowered it does not stand on both feet for {1000 * TIPPING_S:g} ms",
+        f"while it is lowered it does not stand on both feet for {1000 * TIPPING_S:g} ms, or, from "
+        "a step, that controller does not keep it up",
         REARM, (Term("lowering_s"), Term("astray_s", TIPPING_S)),
     ),
     Row(

@@ -15,8 +15,22 @@ from robot.drivers.simulation.shared_plant import SharedPlant
 from robot.drivers.wiring import Wiring
 from robot.model import description
 from robot.model.body import BodyModel
+from robot.model.description import RobotDescription
+from robot.owner.balancing import OwnController
 from robot.owner.owner import BusOwner
 from robot.owner.serving import OwnedBody, Serving, squat_of, stop_of
+
+
+REHEARSES = 50
+"""Periods within which sensors have said something."""
+
+
+def rehearse(robot: RobotDescription, devices: OwnedBody) -> None:
+    """Tick a controller once, and forget it: the first tick of a process is a slow one."""
+    for _ in range(REHEARSES):
+        if (sample := devices.read()) is not None:
+            OwnController(robot).command(sample)
+            return
 
 
 def main(run_file: str, parent_pid: str) -> None:
@@ -31,11 +45,12 @@ def main(run_file: str, parent_pid: str) -> None:
     wiring = Wiring(  # it has nothing to say to anybody but by its memory
         robot=robot, clock=clock, bus=LocalBus(), plant=plant, emulated=emulated
     )
-    owner = BusOwner(body, squat_of(body, print))
+    owner = BusOwner(body, squat_of(body, print), lambda: OwnController(robot))
     with ExitStack() as stack:
         memory = stack.enter_context(OwnerMemory(robot, config.memory, create=True))
         is_pressed = stop_of(config, robot, stack)
         devices = stack.enter_context(OwnedBody(wiring))
+        rehearse(robot, devices)
         ask_for_real_time()
         gc.freeze()  # what start-up made stays: the collector need not look at it every period
         serving = Serving(

@@ -6,6 +6,7 @@ It has no clock of its own: time is that of the motors' states.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -16,9 +17,16 @@ from robot.drivers.motors.holding import Holding
 from robot.drivers.motors.owned.memory import Order
 from robot.model.body import BodyModel
 from robot.owner import ladder
+from robot.owner.balancing import Balancing
 from robot.owner.ladder import Refused, Signs, State
 from robot.owner.sit import Sitting, Squat
-from robot.owner.standing import stands
+from robot.owner.standing import is_on_its_feet, is_quiet, stands
+
+CLOSE_RAD = 0.12
+"""Legs that differ more from a squat's, as where a foot is before the other, stay where balance
+brought them: the squat would lead them out of it."""
+ON_FEET_S = 0.1
+"""So long it counts on that it was on its feet: a foot that touches down shakes the IMU."""
 
 
 class Since:
@@ -47,9 +55,20 @@ class BusOwner:
         stale: commands that came after their deadline, and were not carried out.
     """
 
-    def __init__(self, body: BodyModel, squat: Squat | None) -> None:
-        """Nothing was commanded yet. `squat`: None if the robot knows none, and so damps."""
-        self._body, self._squat = body, squat
+    def __init__(
+        self,
+        body: BodyModel,
+        squat: Squat | None,
+        balances: Callable[[], Balancing] | None = None,
+    ) -> None:
+        """Nothing was commanded yet.
+
+        Args:
+            body: the robot.
+            squat: None if the robot knows none, and so damps.
+            balances: makes what lowers it from a step; None: it damps there.
+        """
+        self._body, self._squat, self._makes = body, squat, balances
         self.stale = 0
         self.peak = 0.0
         self._forget()
@@ -60,9 +79,13 @@ class BusOwner:
         self._heard_s: float | None = None
         self._is_sent = self._was_on = False
         self._sitting: Sitting | None = None
+        makes = None if self._squat is None else self._makes
+        self._balancing = None if makes is None else makes()
+        self._on_feet_at_s = -math.inf
         self._holding = Holding()
         self._astray, self._lowering, self._seated = Since(), Since(), Since()
         self._damping, self._let_go, self._stop = Since(), Since(), Since()
+        self._on_feet = Since()
         self._claimed, self._claimed_at_s = Since(), -math.inf
 
     @property
@@ -131,14 +154,24 @@ class BusOwner:
         silent_s = 0.0 if is_fresh or self._heard_s is None else now_s - self._heard_s
         self._was_on |= self._is_sent and not sample.motors.watchdog
         self._claimed_at_s = now_s if is_claimed else self._claimed_at_s
-        astray = self._squat is None or not stands(sample, self._body, self._squat)
-        lowering = level == Level.SIT
-        seated = lowering and self._sitting is not None and self._sitting.is_over(now_s)
+        lowering, balancing = level == Level.SIT, self._balancing
+        astray = not self._stands(sample)
+        if balancing is not None:
+            if is_on_its_feet(sample, self._body):
+                self._on_feet_at_s = now_s
+            if self._balances:
+                astray = not balancing.is_up
+        on_feet = now_s - self._on_feet_at_s < ON_FEET_S
+        if self._sitting is not None:
+            seated = lowering and self._sitting.is_over(now_s)
+        else:
+            seated = lowering and balancing is not None and balancing.is_low
         lets_go = self._was_on and sample.motors.watchdog
         return Signs(
             silent_s=silent_s,
             claimed_s=self._claimed.look(now_s, is_so=now_s - self._claimed_at_s < ladder.FREE_S),
             astray_s=self._astray.look(now_s, is_so=astray),
+            on_feet_s=self._on_feet.look(now_s, is_so=on_feet),
             lowering_s=self._lowering.look(now_s, is_so=lowering),
             seated_s=self._seated.look(now_s, is_so=seated),
             damping_s=self._damping.look(now_s, is_so=level == Level.DAMP),
@@ -159,9 +192,34 @@ class BusOwner:
                 MotorCommand.damping(count, now_s), Level.HOLD, obeyed=last, q=state.q
             )
         if level == Level.SIT and self._squat is not None:
-            if self._sitting is None:
-                self._sitting = Sitting(self._body, self._squat, last, state.q, now_s=now_s)
-            return self._sitting.at(now_s)
+            return self._lowered(sample, last, self._squat)
         if level == Level.OFF:
             return MotorCommand.damping(count, now_s, 0.0)
         return MotorCommand.damping(count, now_s, self._body.kd)
+
+    def _lowered(self, sample: BodySample, last: MotorCommand, squat: Squat) -> MotorCommand:
+        """One period of the controlled sit: from a step with balance, then, standing, without."""
+        now_s = sample.motors.stamp_s
+        balancing = self._balancing
+        if balancing is not None and self._balances and not self._is_low(sample, balancing, squat):
+            return balancing.command(sample)
+        if self._sitting is None:
+            self._sitting = Sitting(self._body, squat, last, sample.motors.q, now_s=now_s)
+        return self._sitting.at(now_s)
+
+    def _is_low(self, sample: BodySample, balancing: Balancing, squat: Squat) -> bool:
+        """Whether the rest of the way can be played: its feet are side by side, nearly."""
+        near = squat.place(sample.motors.q)[1] < CLOSE_RAD
+        return balancing.is_low and near and self._stands(sample)
+
+    @property
+    def _balances(self) -> bool:
+        """Whether it is being lowered from a step, and not yet by its squat."""
+        return self.state.code in ladder.BALANCED and self._sitting is None
+
+    def _stands(self, sample: BodySample) -> bool:
+        """Whether the squat can begin here; where it can be balanced else, only at rest."""
+        squat = self._squat
+        if squat is None or not stands(sample, self._body, squat):
+            return False
+        return self._balancing is None or self._sitting is not None or is_quiet(sample, squat)

@@ -10,6 +10,7 @@ from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.owned.memory import Order
 from robot.messages import WalkTo
 from robot.model.body import BodyModel
+from robot.owner.balancing import OwnController
 from robot.owner.ladder import WELL
 from robot.owner.owner import BusOwner
 from robot.owner.sit import plan
@@ -28,11 +29,12 @@ class Owned:
         lowest_m: of the base, at the end.
     """
 
-    def __init__(self, reality: str = "ideal", *, seed: int = 1) -> None:
+    def __init__(self, reality: str = "ideal", *, seed: int = 1, balances: bool = False) -> None:
         world = Simulation().under(reality).world("empty")
         self.runtime = FastRuntime(world, seed=seed)
         self.body = BodyModel(self.runtime.plant.robot)
-        self.owner = BusOwner(self.body, plan(self.body))
+        makes = (lambda: OwnController(self.body.description)) if balances else None
+        self.owner = BusOwner(self.body, plan(self.body), makes)
         self.number, self.most = 0, 0.0
         self.told: dict[Level, float] = {}
         self.silent_from_s = math.inf
@@ -85,6 +87,17 @@ class Owned:
             if command is not None:
                 devices.write(command)
             runtime.plant.step(PERIOD_MS)
+
+    def walk_into_a_step(self, for_s: float) -> None:
+        """Walk, until one foot hangs in the air, and then for so long."""
+        self.pass_s(0.2, commanded=True)
+        self.controller.handle(WalkTo(stamp_s=0.0, id=7, x_m=1.0, y_m=0.0, yaw_rad=0.0))
+        for _ in range(200):
+            self.pass_s(0.01, commanded=True)
+            bearing = self.runtime._body.read().force.ankle_wrench[:, 2]
+            if self.controller.mode == "walk" and bearing.min() < 5.0:
+                break
+        self.pass_s(for_s, commanded=True)
 
 
 @pytest.mark.parametrize(
@@ -143,6 +156,47 @@ def test_in_a_step_it_damps_and_no_torque_is_left_in_the_end():
         robot.pass_s(0.02)
         assert not robot.torque_nm.any()
         assert robot.most <= 1.0
+
+
+@pytest.mark.parametrize(
+    ("reality", "seed", "phase"),
+    [
+        ("ideal", 1, 0),
+        ("real", 2, 5),
+        ("harsh", 3, 2),
+        *(
+            pytest.param(reality, 1 + phase, phase, marks=pytest.mark.rest)
+            for reality in ("ideal", "real", "harsh")
+            for phase in range(8)
+        ),
+    ],
+)
+def test_from_any_phase_of_a_step_it_is_lowered_on_its_feet_within_3_s(reality, seed, phase):
+    """Eight of them are two steps: a foot in the air, early and late, and both on the floor."""
+    with Owned(reality, seed=seed, balances=True) as robot:
+        robot.walk_into_a_step(0.6 + 0.075 * phase)
+        assert robot.owner.state == WELL
+        robot.pass_s(1.85)
+        assert robot.owner.state.level == Level.SIT
+        assert robot.owner.state.code == "controller_lost_in_a_step"
+        assert robot.told[Level.SIT] == pytest.approx(0.008, abs=1e-6)
+        assert robot.tilt_rad < math.radians(15.0)
+        assert robot.height_m < 0.75 * robot.body.description.walking.base_height_m
+        assert robot.most <= 1.0
+        while robot.owner.state.level == Level.SIT:
+            robot.pass_s(0.02)
+        assert robot.owner.state.code == "seated"
+        assert robot.told[Level.DAMP] < 3.6
+        robot.pass_s(2.1)
+        assert robot.owner.state.level == Level.OFF
+
+
+def test_a_robot_that_stands_is_lowered_by_its_squat_also_by_an_owner_that_can_balance():
+    with Owned("real", seed=1, balances=True) as robot:
+        robot.pass_s(0.2, commanded=True)
+        robot.pass_s(2.2)
+        assert robot.owner.state.code == "controller_lost"
+        assert robot.tilt_rad < math.radians(10.0)
 
 
 def test_the_stop_takes_all_torque_within_two_periods():

@@ -7,6 +7,7 @@ from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
 from robot.drivers.motor_bus import MotorCommand, MotorState
 from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.owned.memory import Order
+from robot.owner.balancing import OwnController
 from robot.owner.ladder import WELL, Refused
 from robot.owner.owner import BusOwner
 from robot.physics import GRAVITY_M_S2
@@ -263,3 +264,102 @@ def test_a_claim_that_stays_free_is_not_waited_for_beyond_20_ms(rig):
         rig.pass_by(2)
     rig.pass_by(1)
     assert rig.level == Level.SIT
+
+
+class Balances:
+    """Lowers by saying a posture of its own; a test says how that goes."""
+
+    def __init__(self) -> None:
+        self.is_up, self.is_low = True, False
+        self.calls = 0
+
+    def command(self, sample: BodySample) -> MotorCommand:
+        self.calls += 1
+        zero = np.zeros(len(sample.motors.q))
+        return MotorCommand(sample.motors.stamp_s, zero + 0.123, zero, zero, zero + 1.0, zero + 1.0)
+
+
+@pytest.fixture
+def stepping(body, squat) -> tuple[Rig, Balances]:
+    """A robot on one foot, whose owner can lower it from there; nobody commands any more."""
+    rig, balances = Rig(body, squat), Balances()
+    rig.owner = BusOwner(body, squat, lambda: balances)
+    rig.pass_by(5, commanded=True)
+    rig.bears = [1.0, 0.0]
+    return rig, balances
+
+
+def test_from_a_step_it_is_lowered_with_balance_and_begins_only_then(stepping):
+    rig, balances = stepping
+    rig.pass_by(3)
+    assert (rig.level, balances.calls) == (Level.HOLD, 0)
+    command = rig.pass_by(200)
+    assert (rig.owner.state.code, balances.calls) == ("controller_lost_in_a_step", 200)
+    assert command is not None
+    assert (command.q_des == 0.123).all()
+
+
+def test_low_and_on_both_feet_the_rest_of_the_way_is_played_and_else_it_lets_go_there(stepping):
+    rig, balances = stepping
+    rig.pass_by(100)
+    balances.is_low = True
+    rig.pass_by(100)  # still on one foot
+    assert rig.level == Level.SIT
+    rig.pass_by(200)
+    assert rig.owner.state.code == "seated"
+    assert rig.level == Level.DAMP
+
+
+def test_who_does_not_stay_up_is_damped_within_100_ms(stepping):
+    rig, balances = stepping
+    rig.pass_by(100)
+    balances.is_up = False
+    rig.pass_by(round(0.1 / PERIOD_S) + 2)
+    assert rig.owner.state.code == "tipping"
+    assert rig.level == Level.DAMP
+
+
+def test_what_lies_is_damped_also_where_it_could_be_balanced(stepping):
+    rig, balances = stepping
+    rig.pass_by(2, commanded=True)
+    rig.bears = [0.0, 0.0]
+    rig.pass_by(60, commanded=True)
+    rig.pass_by(5)
+    assert rig.owner.state.code == "controller_lost_astray"
+    assert not balances.calls
+
+
+def test_a_copy_that_breaks_as_the_controller_did_damps_and_raises_nothing(
+    body, monkeypatch, squat
+):
+    rig = Rig(body, squat)
+    rig.owner = BusOwner(body, squat, lambda: OwnController(body.description))
+    rig.pass_by(5, commanded=True)
+    rig.bears = [1.0, 0.0]
+
+    def breaks(*_):
+        raise ValueError("as before")
+
+    monkeypatch.setattr("robot.control.loop.ControlLoop.tick", breaks)
+    command = rig.pass_by(5)
+    assert rig.owner.state.code == "controller_lost_in_a_step"
+    assert command is not None
+    assert not command.kp.any()
+    assert command.kd.any()
+    rig.pass_by(60)
+    assert rig.owner.state.code == "tipping"
+
+
+def test_after_a_reset_it_can_be_lowered_from_a_step_again(stepping):
+    rig, balances = stepping
+    rig.pass_by(100)
+    balances.is_low = True
+    rig.pass_by(2000)
+    assert rig.level == Level.OFF
+    balances.is_low, before = False, balances.calls
+    assert not isinstance(rig.owner.reset(), Refused)
+    rig.bears = [1.0, 0.0]
+    rig.pass_by(5, commanded=True)
+    rig.pass_by(50)
+    assert rig.owner.state.code == "controller_lost_in_a_step"
+    assert balances.calls > before
