@@ -48,10 +48,14 @@ class Strike(NamedTuple):
     how: str
     may: frozenset[str]
 
+    def __str__(self) -> str:
+        """As people call it."""
+        return f"{self.role}: {self.how}"
+
 
 STRIKES = (
     Strike("controller", "SIGKILL", frozenset({WENT_ON, LOWERED, DAMPED})),
-    Strike("controller", "SIGSTOP", frozenset({LOWERED, DAMPED})),
+    Strike("controller", "SIGSTOP", frozenset({WENT_ON, LOWERED, DAMPED})),
     Strike("controller", "SIGSTOP for a while", frozenset({WENT_ON, LOWERED, DAMPED})),
     Strike("spare controller", "SIGKILL", frozenset({WENT_ON})),
     Strike("owner", "SIGKILL", frozenset({"ended: motor_fault"})),
@@ -92,11 +96,12 @@ def main(
     runs: Annotated[int, typer.Option(min=1, help="a strike each")] = 200,
     seed: Annotated[int, typer.Option(min=0, help="of the first run")] = 0,
     driver: Annotated[str, typer.Option(help="of the motors: can, ethernet, dynamixel")] = "can",
+    only: Annotated[str, typer.Option(help="a strike, as in 'controller: SIGKILL'")] = "",
 ) -> None:
     """Strike and count; a line a run on standard output, the sum on standard error."""
     rows: list[Row] = []
     for number in range(seed, seed + runs):
-        rows.append(once(number, driver))
+        rows.append(once(number, driver, only))
         print(json.dumps(asdict(rows[-1])), flush=True)
     counted = Counter((row.strike, row.outcome) for row in rows)
     for (strike, outcome), count in sorted(counted.items()):
@@ -111,11 +116,12 @@ def main(
     raise typer.Exit(1 if wrong else 0)
 
 
-def once(seed: int, driver: str) -> Row:
-    """One run and its strike."""
+def once(seed: int, driver: str, only: str = "") -> Row:
+    """One run and its strike, or one of those that are called `only`."""
     rng = random.Random(seed)
     (strike,) = rng.choices(STRIKES, WEIGHTS)
-    row = Row(seed, f"{strike.role}: {strike.how}", walked=rng.random() < 0.5)
+    strike = next((one for one in STRIKES if str(one) == only), strike)
+    row = Row(seed, str(strike), walked=rng.random() < 0.5)
     row.load = round(os.getloadavg()[0], 1)
     world = Simulation().world("empty")
     with tempfile.TemporaryDirectory() as folder:
@@ -131,19 +137,22 @@ def once(seed: int, driver: str) -> Row:
 
 
 def _play(runtime: LiveRuntime, strike: Strike, row: Row, rng: random.Random, driver: str) -> None:
+    robot, folder = description.load(ROBOT).driven_by(driver), Path(runtime.run.sockets)
     spare_until_s = time.monotonic() + SPARE_S
-    while "spare controller" not in (found := roles(os.getpid(), {})):
-        if time.monotonic() > spare_until_s or runtime.failure() is not None:
-            row.outcome = "did not come up"
-            return
-        runtime.advance(LOOKS_S)
+    with OwnerMemory(robot, folder) as owner:
+        # A spare that is there may still be loading: it is one when it follows the states.
+        while "spare controller" not in (found := roles(os.getpid(), {})) or not owner.ready():
+            if time.monotonic() > spare_until_s or runtime.failure() is not None:
+                row.outcome = "did not come up"
+                return
+            runtime.advance(LOOKS_S)
     link = runtime.link
     if row.walked:
         link.send(WalkTo(stamp_s=link.now_s(), id=link.next_id(), x_m=1.0, y_m=0.0, yaw_rad=0.0))
     strikes_s = link.now_s() + rng.uniform(0.0, WALKS_S if row.walked else STANDS_S)
     while link.now_s() < strikes_s and runtime.failure() is None:
         runtime.advance(LOOKS_S)
-    with OwnerMemory(description.load(ROBOT).driven_by(driver), Path(runtime.run.sockets)) as owner:
+    with OwnerMemory(robot, folder) as owner:
         _strike(strike, found[strike.role], rng)
         begun_s, numbered = owner.stamp_s(), owner.last_number()
         settles_s = time.monotonic() + SETTLES_S

@@ -20,7 +20,6 @@ from robot.owner.balancing import OwnController
 from robot.owner.owner import BusOwner
 from robot.owner.serving import OwnedBody, Serving, squat_of, stop_of
 
-
 REHEARSES = 50
 """Periods within which sensors have said something."""
 

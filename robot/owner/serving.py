@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
@@ -30,6 +31,7 @@ from robot.errors import DescriptionError, DriverError
 from robot.messages import MotorAlarm
 from robot.model.body import BodyModel
 from robot.model.description import RobotDescription
+from robot.owner import ladder
 from robot.owner.ladder import BY_CODE, Refused, State
 from robot.owner.owner import BusOwner
 from robot.owner.sit import Squat, plan
@@ -39,6 +41,12 @@ WAITS_S = 0.0012
 WAITS_SIMULATED_S = 0.008
 """Of the wall's time, in a simulation, which waits 10 ms for commands: a slow machine is no dead
 controller, and a spare's millisecond is longer there. Else one that has died is not waited for."""
+
+READY_S = 0.006
+"""A spare that has seen no state for longer is not ready: it does not run just now."""
+GIVES_AFTER_S = 0.008
+"""So long a controller that lives may be late before a spare that is ready gets its turn: what it
+was doing is then over, as if it had died."""
 
 
 @runtime_checkable
@@ -125,6 +133,8 @@ class Serving:
         self._words = Reported()
         self._held: Change | None = None
         self._answered = 0
+        self._turn, self._gave_s = 0, -math.inf
+        self._good_s = -math.inf
         self.holds = 0
 
     def period(self) -> None:
@@ -140,6 +150,7 @@ class Serving:
         self._answer()
         self._publish(sample)
         order = self._await()
+        self._give(sample, order)
         before = self._owner.state
         command = self._owner.decide(
             sample, order, is_pressed=self._is_pressed(), is_claimed=self._is_claimed(order)
@@ -148,6 +159,30 @@ class Serving:
             self._body.motors.write(command)
         if (state := self._owner.state)[:2] != before[:2]:
             self._note(state)
+        if state.latched:
+            self._turn = 0  # who comes after a person's reset goes by the lock
+
+    def _give(self, sample: BodySample, order: Order | None) -> None:
+        """Give the turn of a controller that fell silent to a spare that is ready, if one is.
+
+        One that has died has no lock any more: that is sure, and not waited for. One that is just
+        dying still has it, as the system takes it apart, and so has one that stands still.
+        """
+        now_s = self._stamp_s
+        if order is not None:
+            self._good_s = now_s
+            if order.leaves:
+                self._turn = 0
+            return
+        if not self._owner.is_waited_for or now_s - self._gave_s < ladder.AT_MOST_S:
+            return
+        silent_s, ready = now_s - self._good_s, self._memory.ready()
+        if ready is None or ready.who == self._turn or now_s - ready.stamp_s > READY_S:
+            return
+        if silent_s > GIVES_AFTER_S + ladder.SLACK_S or not self._memory.is_claimed():
+            self._turn, self._gave_s = ready.who, now_s
+            self._publish(sample)
+            self._tell(f"{now_s:.3f} s, a spare controller has the turn")
 
     @property
     def is_lowering(self) -> bool:
@@ -173,12 +208,13 @@ class Serving:
         alarms = state.alarms if own is None else (own, *state.alarms)
         if alarms != self._words.alarms:
             self._say(alarms=alarms)
-        self._memory.publish(state, Standing(owner.state.level, owner.peak, self._answered))
+        level, peak = owner.state.level, owner.peak
+        self._memory.publish(state, Standing(level, peak, self._answered, turn=self._turn))
 
     def _await(self) -> Order | None:
         """The order of this period, waited for while a controller that lives is to give one."""
         memory = self._memory
-        order = memory.take()
+        order = self._taken()
         if not self._owner.is_waited_for:
             return order
         until_s = self._clock.now_s() + (WAITS_SIMULATED_S if self._is_simulated else WAITS_S)
@@ -190,13 +226,19 @@ class Serving:
             if not self._is_simulated and not memory.is_claimed():
                 break
             self._naps.nap()
-            order = memory.take() or order
+            order = self._taken() or order
         self._naps.end()
         return order
 
+    def _taken(self) -> Order | None:
+        """A new order of the one whose turn it is."""
+        order = self._memory.take()
+        return order if order is None or self._turn in (0, order.by) else None
+
     def _is_claimed(self, order: Order | None) -> bool:
         """Whether a controller that lives has claimed the motors; not asked where one commands."""
-        return order is not None or self._memory.is_claimed()
+        given = self._stamp_s - self._gave_s < ladder.AT_MOST_S
+        return order is not None or given or self._memory.is_claimed()
 
     def _answer(self) -> None:
         """Answer a person's wish for a reset."""
@@ -210,6 +252,7 @@ class Serving:
         else:
             if isinstance(motors := self._body.motors, Resettable):
                 motors.reset()
+            self._turn, self._gave_s = 0, -math.inf
             self._say(refused="")
             self._note(answer)
         self._answered = wish

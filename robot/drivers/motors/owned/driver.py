@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import os
 from dataclasses import replace
 from pathlib import Path
 from typing import Self
@@ -13,7 +15,7 @@ from robot.closing import Closing
 from robot.drivers.motor_bus import Capability, MotorCommand, MotorState
 from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.naps import POLL_S, Naps
-from robot.drivers.motors.owned.memory import NAME, Order, OwnerMemory
+from robot.drivers.motors.owned.memory import NAME, Order, OwnerMemory, Ready
 from robot.errors import DriverError
 from robot.model.description import RobotDescription
 
@@ -21,6 +23,7 @@ PERIOD_S = 0.002
 GOOD_FOR_S = 2 * PERIOD_S
 """A command may be carried out for so long after the state that it answers: one period late."""
 OPEN_TIMEOUT_S, SILENCE_S = 20.0, 1.0
+_numbers = itertools.count()
 
 
 class OwnedMotors(Closing):
@@ -47,7 +50,8 @@ class OwnedMotors(Closing):
         self._heard_s = 0.0
         self._number = 0
         self._naps = Naps(clock)
-        self._is_held = False
+        self._is_held = self._is_locked = False
+        self._who = (os.getpid() << 16) + next(_numbers)
 
     def __enter__(self) -> Self:
         """Wait for the owner and its first state. Raises DriverError if it does not come."""
@@ -71,27 +75,53 @@ class OwnedMotors(Closing):
 
     def close(self) -> None:
         """Leave the motors damping, if they are commanded from here, and let go of the owner."""
-        memory, self._memory = self._memory, None
+        memory = self._memory
         if memory is None:
             return
-        if self._is_held and self._state is not None:
+        if self._is_held and self.claim() and self._state is not None:
             damping = MotorCommand.damping(memory.count, self._state.stamp_s)
             self._hand_over(memory, damping, leaves=True)
-        self._is_held, self._state, self._given = False, None, None
+        self._memory = None
+        self._is_held = self._is_locked = False
+        self._state = self._given = None
         memory.close()
 
     def claim(self) -> bool:
         """Become the one that commands; False while another one does, or the owner lets nobody.
 
-        Once it acts alone it lets nobody, until a person arms it again.
+        Who waits so, asking again every millisecond, follows the states, and says that it is ready:
+        the owner gives it the turn of a controller that falls silent, whether that one has died,
+        is just dying or only stands still. Once the owner acts alone it lets nobody, until a person
+        arms it again.
         """
         memory = self._mapped()
+        standing = memory.standing()
+        is_given = standing.turn == self._who
         if self._is_held:
-            return True
-        if memory.standing().level >= Level.SIT or not memory.lock():
+            if not (is_given or standing.turn == 0):
+                self._give_up(memory)
+            elif not self._is_locked:  # who had it before may have held the lock until now
+                self._is_locked = memory.lock()
+            return self._is_held
+        if standing.level >= Level.SIT:
             return False
+        self._fetch(memory)
+        if not is_given:
+            if standing.turn == 0 and memory.lock():
+                self._is_locked = True
+            else:
+                if self._state is not None:
+                    memory.be_ready(Ready(self._who, self._state.stamp_s))
+                return False
         self._is_held, self._number = True, memory.last_number()
         return True
+
+    def _give_up(self, memory: OwnerMemory) -> None:
+        """Another one was given the turn: this one stood still for too long."""
+        self._is_held = False
+        if self._is_locked:
+            memory.unlock()
+        self._is_locked = False
 
     def read(self) -> MotorState:
         """The next state, waited for at most one period; else the last one again, aged.
@@ -139,7 +169,8 @@ class OwnedMotors(Closing):
 
     def _hand_over(self, memory: OwnerMemory, command: MotorCommand, *, leaves: bool) -> None:
         self._number += 1
-        memory.order(Order(self._number, command.stamp_s + GOOD_FOR_S, leaves, command))
+        good_until_s = command.stamp_s + GOOD_FOR_S
+        memory.order(Order(self._number, good_until_s, leaves, command, self._who))
 
     def _mapped(self) -> OwnerMemory:
         if self._memory is None:

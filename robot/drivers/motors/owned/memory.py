@@ -26,7 +26,7 @@ from robot.messages import MotorAlarm
 from robot.model.description import RobotDescription
 from robot.se3 import Array
 
-MAGIC = b"HUOWNER1"
+MAGIC = b"HUOWNER2"
 HEADER = struct.Struct("<8sQ32s16x")
 NAME = "owner"
 """Of the file."""
@@ -44,12 +44,14 @@ class Order(NamedTuple):
         deadline_s: until when it may be carried out, by the stamps of the motors.
         leaves: whether it is its controller's last, who is no more missed after it.
         command: what the motors are to do.
+        by: who gives it (`OwnedMotors`).
     """
 
     number: int
     deadline_s: float
     leaves: bool
     command: MotorCommand
+    by: int = 0
 
 
 class Standing(NamedTuple):
@@ -60,12 +62,22 @@ class Standing(NamedTuple):
         peak: the largest torque since it acts alone, as a share of the joint's limit.
         answered: number of the last wish for a reset that was answered.
         refused: why that one was refused; "" if it was not.
+        turn: the spare to which the owner gave the turn of a controller that fell silent; all
+            others' commands are refused. 0: it gave it to none, and the lock says whose turn it is.
     """
 
     level: Level = Level.OK
     peak: float = 0.0
     answered: int = 0
     refused: str = ""
+    turn: int = 0
+
+
+class Ready(NamedTuple):
+    """A spare that follows the states, ready to command: who, and the newest that it has seen."""
+
+    who: int
+    stamp_s: float
 
 
 class Change(NamedTuple):
@@ -94,7 +106,7 @@ class OwnerMemory(Turns, Closing):
             DriverError: if it is not there, or not of this layout, robot and configuration.
         """
         path, count = folder / NAME, len(robot.motors)
-        sizes = (4 + 5 * count, 6 + 5 * count, 1 + ALARM_WORDS, 1)
+        sizes = (5 + 5 * count, 7 + 5 * count, 1 + ALARM_WORDS, 1, 2)
         places = np.cumsum([HEADER.size, *(Seqlock.bytes_for(size) for size in sizes)]).tolist()
         header = HEADER.pack(MAGIC, count, robot.digest())
         if create:
@@ -111,7 +123,7 @@ class OwnerMemory(Turns, Closing):
         except (OSError, ValueError) as error:
             raise DriverError(f"the owner's memory {path} cannot be mapped: {error}") from error
         self.count = count
-        self._orders, self._states, self._words, self._wishes = (
+        self._orders, self._states, self._words, self._wishes, self._ready = (
             Seqlock(self._map, place, size=size)
             for place, size in zip(places[:-1], sizes, strict=True)
         )
@@ -120,11 +132,15 @@ class OwnerMemory(Turns, Closing):
     @property
     def torn(self) -> int:
         """Records refused because they were torn."""
-        return sum(one.torn for one in (self._orders, self._states, self._words, self._wishes))
+        return sum(one.torn for one in self._records)
+
+    @property
+    def _records(self) -> tuple[Seqlock, ...]:
+        return self._orders, self._states, self._words, self._wishes, self._ready
 
     def close(self) -> None:
         """Let go of the memory; the file stays."""
-        for one in (self._orders, self._states, self._words, self._wishes):
+        for one in self._records:
             one.release()
         self._map.close()
         self._file.close()
@@ -153,7 +169,9 @@ class OwnerMemory(Turns, Closing):
     def order(self, order: Order) -> None:
         """Leave an order."""
         c = order.command
-        head = (float(order.number), c.stamp_s, order.deadline_s, float(order.leaves))
+        head = (
+            float(order.number), c.stamp_s, order.deadline_s, float(order.leaves), float(order.by),
+        )  # fmt: skip
         self._orders.write(np.concatenate((head, c.q_des, c.qd_des, c.tau_ff, c.kp, c.kd)))
 
     def news(self) -> MotorState | None:
@@ -161,7 +179,7 @@ class OwnerMemory(Turns, Closing):
         values = self._states.news()
         if values is None:
             return None
-        q, qd, tau, temperature_c, age_s = values[6:].reshape(5, self.count)
+        q, qd, tau, temperature_c, age_s = values[7:].reshape(5, self.count)
         return MotorState(
             float(values[0]), q, qd, tau, temperature_c, age_s,
             watchdog=bool(values[2]), command_stamp_s=float(values[1]), alarms=self.said().alarms,
@@ -177,7 +195,8 @@ class OwnerMemory(Turns, Closing):
         if (record := self._states.read()) is not None:  # else it is torn, and the last one counts
             _, values = record
             level, peak, answered = Level(int(values[3])), float(values[4]), int(values[5])
-            self._stood = Standing(level, peak, answered, self.said().refused)
+            turn = int(values[6])
+            self._stood = Standing(level, peak, answered, self.said().refused, turn)
         return self._stood
 
     def said(self) -> Reported:
@@ -188,6 +207,10 @@ class OwnerMemory(Turns, Closing):
                 values[1:].tobytes()[: int(values[0])], type=Reported
             )
         return self._told
+
+    def be_ready(self, ready: Ready) -> None:
+        """Say that a spare has seen this state, and could command."""
+        self._ready.write(np.array(ready, float))
 
     def wish_reset(self) -> int:
         """Ask for a reset; returns the wish's number, by which its answer is known."""
@@ -203,15 +226,15 @@ class OwnerMemory(Turns, Closing):
         values = self._orders.news()
         if values is None:
             return None
-        number, stamp_s, deadline_s, leaves = values[:4].tolist()
-        command = MotorCommand(stamp_s, *values[4:].reshape(5, self.count))
-        return Order(int(number), deadline_s, bool(leaves), command)
+        number, stamp_s, deadline_s, leaves, by = values[:5].tolist()
+        command = MotorCommand(stamp_s, *values[5:].reshape(5, self.count))
+        return Order(int(number), deadline_s, bool(leaves), command, int(by))
 
     def publish(self, state: MotorState, standing: Standing) -> None:
         """Make a state readable, and how the owner is."""
         head = (
             state.stamp_s, state.command_stamp_s, float(state.watchdog),
-            float(standing.level), standing.peak, float(standing.answered),
+            float(standing.level), standing.peak, float(standing.answered), float(standing.turn),
         )  # fmt: skip
         rows: tuple[Array, ...] = (
             np.array(head), state.q, state.qd, state.tau, state.temperature_c, state.age_s,
@@ -226,6 +249,11 @@ class OwnerMemory(Turns, Closing):
             words = msgspec.structs.replace(words, alarms=tuple(alarms))
         padded = said.ljust(8 * ALARM_WORDS, b"\0")
         self._words.write(np.concatenate(((float(len(said)),), np.frombuffer(padded))))
+
+    def ready(self) -> Ready | None:
+        """The spare that was ready last; None: there was none, or its word is torn."""
+        record = self._ready.read()
+        return None if record is None else Ready(int(record[1][0]), float(record[1][1]))
 
     def wish(self) -> int | None:
         """Number of a wish for a reset that was not seen before."""

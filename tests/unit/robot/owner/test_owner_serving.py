@@ -5,11 +5,14 @@ import pytest
 
 from robot.clock import SimulatedClock
 from robot.drivers.body_sample import BodySample, ForceReading, ImuReading
-from robot.drivers.motor_bus import MotorCommand, MotorState
+from robot.drivers.motor_bus import MIT_MODE, MotorCommand, MotorState
 from robot.drivers.motors.alarms import Level
+from robot.drivers.motors.owned.driver import OwnedMotors
 from robot.drivers.motors.owned.memory import Order, OwnerMemory
+from robot.errors import DriverError
+from robot.owner.ladder import AT_MOST_S, HOLDS_S
 from robot.owner.owner import BusOwner
-from robot.owner.serving import WAITS_S, WAITS_SIMULATED_S, Serving
+from robot.owner.serving import GIVES_AFTER_S, WAITS_S, WAITS_SIMULATED_S, Serving
 from robot.physics import GRAVITY_M_S2
 
 PERIOD_S = 0.002
@@ -266,3 +269,151 @@ def test_pressed_there_is_no_torque_in_the_next_period_and_no_reset(rig):
     rig.controller.wish_reset()
     rig.work(1)
     assert rig.controller.standing().level == Level.OK
+
+
+# --- a spare that follows -------------------------------------------------------------------------
+
+
+class Spare:
+    """A controller that waits for its turn, and begins with a command some periods later."""
+
+    def __init__(self, rig: Rig, folder, *, thinks: int = 1) -> None:
+        self.rig, self.thinks, self.commands = rig, thinks, 0
+        robot = rig.body.body.description
+        self.motors = OwnedMotors(robot, folder, clock=SimulatedClock(), capabilities=MIT_MODE)
+
+    def act(self) -> None:
+        """What it does in one period."""
+        if not self.motors.claim():
+            return
+        self.thinks -= 1
+        if self.thinks < 0:
+            state, body = self.motors.read(), self.rig.body.body
+            zero = np.zeros(body.count)
+            self.motors.write(
+                MotorCommand(state.stamp_s, self.rig.body.q, zero, zero + 3.0, body.kp, body.kd)
+            )
+            self.commands += 1
+
+
+@pytest.fixture
+def spare(rig, tmp_path):
+    rig.work(1)
+    made = Spare(rig, tmp_path)
+    with made.motors:
+        yield made
+
+
+def play(rig: Rig, spare: Spare, periods: int) -> list[Level]:
+    """Periods in which the spare does what it does once each; the levels after them."""
+    levels: list[Level] = []
+    for _ in range(periods):
+        spare.act()
+        rig.work(1)
+        levels.append(rig.owner.state.level)
+    return levels
+
+
+@pytest.mark.parametrize("thinks", range(5))
+def test_a_spare_that_follows_goes_on_for_one_that_died_however_long_its_first_tick_takes(
+    rig, spare, thinks
+):
+    rig.begin()
+    spare.thinks = thinks
+    play(rig, spare, 5)
+    rig.fall_silent()
+    levels = play(rig, spare, 40)
+    assert max(levels) <= Level.HOLD
+    assert levels.count(Level.HOLD) <= thinks + 1
+    assert levels[-1] == Level.OK
+    assert rig.body.motors.told[-1].tau_ff[0] == 3.0
+
+
+def test_a_spare_gets_the_turn_of_one_that_still_has_its_lock_as_while_it_is_taken_apart(
+    rig, spare
+):
+    rig.begin()
+    play(rig, spare, 5)
+    rig.clock.happens = lambda: None  # nothing more of it; the lock stays its own
+    levels = play(rig, spare, 40)
+    assert max(levels) == Level.HOLD
+    held_s = levels.count(Level.HOLD) * PERIOD_S
+    assert GIVES_AFTER_S < held_s < AT_MOST_S
+    assert levels[-1] == Level.OK
+
+
+def test_what_one_says_that_lost_its_turn_is_not_carried_out(rig, spare):
+    rig.begin()
+    play(rig, spare, 5)
+    rig.clock.happens = lambda: None
+    play(rig, spare, 20)
+    rig.body.motors.told.clear()
+    rig.clock.happens = rig.answer  # it goes on, as after SIGCONT
+    for _ in range(30):
+        spare.act()
+        rig.work(1)
+    assert all(one.tau_ff[0] == 3.0 for one in rig.body.motors.told)
+
+
+def test_a_controller_that_is_late_for_less_keeps_its_turn(rig, spare):
+    rig.begin()
+    play(rig, spare, 5)
+    rig.clock.happens = lambda: None
+    play(rig, spare, round(GIVES_AFTER_S / PERIOD_S))
+    rig.clock.happens = rig.answer
+    assert play(rig, spare, 20)[-1] == Level.OK
+    assert spare.commands == 0
+
+
+def test_a_spare_that_does_not_run_is_given_nothing(rig, spare):
+    rig.begin()
+    play(rig, spare, 5)
+    rig.work(10)  # it has seen no state meanwhile
+    rig.fall_silent()
+    rig.work(round(HOLDS_S / PERIOD_S) + 2)
+    assert rig.owner.state.code == "controller_lost"
+
+
+def test_a_spare_that_was_given_the_turn_and_says_nothing_is_not_waited_for_longer(rig, spare):
+    rig.begin()
+    spare.thinks = 1000
+    play(rig, spare, 5)
+    rig.fall_silent()
+    play(rig, spare, round(AT_MOST_S / PERIOD_S) + 2)
+    assert rig.owner.state.code == "controller_silent"
+
+
+def test_the_second_spare_goes_on_for_the_first(rig, spare, tmp_path):
+    second = Spare(rig, tmp_path)
+    with second.motors:
+        rig.begin()
+        play(rig, spare, 5)
+        rig.fall_silent()
+        for _ in range(20):
+            spare.act()
+            rig.work(1)
+        levels = play(rig, second, 30)  # the first one is heard no more
+        assert max(levels) == Level.HOLD
+        assert levels[-1] == Level.OK
+        assert second.commands > 10
+        assert not spare.motors.claim()
+        with pytest.raises(DriverError, match="another controller"):
+            spare.motors.write(rig.body.motors.told[-1])
+
+
+def test_after_a_persons_reset_the_lock_says_whose_turn_it_is(rig, spare):
+    rig.begin()
+    play(rig, spare, 5)
+    rig.fall_silent()
+    play(rig, spare, 20)
+    rig.is_pressed = True
+    rig.work(3)
+    assert rig.owner.state.level == Level.OFF
+    rig.is_pressed = False
+    rig.controller.wish_reset()
+    rig.work(2)
+    assert rig.owner.state.level == Level.OK
+    assert rig.controller.standing().turn == 0
+    before = spare.commands
+    play(rig, spare, 5)
+    assert spare.commands > before  # it has the lock
