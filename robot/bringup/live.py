@@ -84,7 +84,7 @@ class LiveRuntime(Closing):
         pictures: bool = False,
         handle: Handle | None = None,
         motors: str = "",
-        owned: bool = False,
+        owned: bool | None = None,
         stop_input: Path | None = None,
         processes: tuple[Process, ...] = PROCESSES,
         lidar_map: Path | None = None,
@@ -101,8 +101,8 @@ class LiveRuntime(Closing):
             pictures: whether what the robot's camera sees is rendered, in a process of its own.
             handle: on the process above, where that one looks after the processes.
             motors: driver of the motors in place of the one that the description names.
-            owned: whether a process of its own commands them, also where the description does not
-                say so.
+            owned: whether a process of its own commands them; None: as the description says, and
+                where that says nothing, as is usual for its driver (`registry.is_owned`).
             stop_input: a file that emulates the contact of its emergency stop.
             processes: the table; not looked at with a `handle`.
             lidar_map: the map that it finds itself in, where its lidar tells it where it is.
@@ -125,7 +125,7 @@ class LiveRuntime(Closing):
             pictures=pictures or world.eyes == "camera",
             motors=motors,
             stop_input="" if stop_input is None else str(stop_input),
-            owned=owned or body.bus_owner is not None,
+            owned=registry.is_owned(body) if owned is None else owned,
             eyes=world.eyes,
             localisation=world.localisation,
             lidar_map="" if lidar_map is None else str(lidar_map),

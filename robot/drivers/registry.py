@@ -201,6 +201,17 @@ def commanded_motors(wiring: Wiring) -> MotorBus:
     )
 
 
+OWNED = frozenset({CAN, ETHERNET})
+"""Motors that a process of its own commands (`robot.owner`), where a description says nothing."""
+
+
+def is_owned(robot: RobotDescription) -> bool:
+    """Whether a process of its own commands a robot's motors, and outlives the controller."""
+    if robot.bus_owner is not None:
+        return robot.bus_owner.enabled
+    return robot.drivers.get(MOTORS.device, SIMULATED) in OWNED
+
+
 def check(robot: RobotDescription) -> None:
     """Whether every driver that a description names is in the table.
 

@@ -199,7 +199,8 @@ class RobotDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     """A humanoid: joint groups, limits, feet, hands, sensors, postures.
 
     `drivers` names what moves and senses it, by device (`robot.drivers.registry`); one that is not
-    named is simulated. With `bus_owner` a process of its own commands the motors (`robot.owner`).
+    named is simulated. `bus_owner` says whether a process of its own commands the motors
+    (`robot.owner`).
 
     What is left out and 0 here is measured at its model when it is loaded: height of the shoulders
     above the floor, standing, and their distance from the middle; length of a stretched arm, from

@@ -20,7 +20,7 @@ from robot.owner import ladder
 from robot.owner.balancing import Balancing
 from robot.owner.ladder import Refused, Signs, State
 from robot.owner.sit import Sitting, Squat
-from robot.owner.standing import is_on_its_feet, is_quiet, stands
+from robot.owner.standing import Rest, is_even, is_on_its_feet, stands
 
 CLOSE_RAD = 0.12
 """Legs that differ more from a squat's, as where a foot is before the other, stay where balance
@@ -86,6 +86,7 @@ class BusOwner:
         self._astray, self._lowering, self._seated = Since(), Since(), Since()
         self._damping, self._let_go, self._stop = Since(), Since(), Since()
         self._on_feet = Since()
+        self._rest, self._is_at_rest = Rest(), True
         self._claimed, self._claimed_at_s = Since(), -math.inf
 
     @property
@@ -155,6 +156,8 @@ class BusOwner:
         self._was_on |= self._is_sent and not sample.motors.watchdog
         self._claimed_at_s = now_s if is_claimed else self._claimed_at_s
         lowering, balancing = level == Level.SIT, self._balancing
+        if self._squat is not None:
+            self._is_at_rest = self._rest.look(now_s, sample.motors.q[self._squat.legs])
         astray = not self._stands(sample)
         if balancing is not None:
             if is_on_its_feet(sample, self._body):
@@ -210,7 +213,7 @@ class BusOwner:
     def _is_low(self, sample: BodySample, balancing: Balancing, squat: Squat) -> bool:
         """Whether the rest of the way can be played: its feet are side by side, nearly."""
         near = squat.place(sample.motors.q)[1] < CLOSE_RAD
-        return balancing.is_low and near and self._stands(sample)
+        return balancing.is_low and near and stands(sample, self._body, squat)
 
     @property
     def _balances(self) -> bool:
@@ -222,4 +225,6 @@ class BusOwner:
         squat = self._squat
         if squat is None or not stands(sample, self._body, squat):
             return False
-        return self._balancing is None or self._sitting is not None or is_quiet(sample, squat)
+        if self._balancing is None or self._sitting is not None:
+            return True
+        return self._is_at_rest and is_even(sample)

@@ -13,15 +13,15 @@ pytestmark = pytest.mark.live
 
 
 @pytest.mark.parametrize(
-    ("driver", "said", "emulated"),
+    ("driver", "said", "emulated", "who"),
     [
-        ("can", "33 joints", "CAN"),
-        ("ethernet", "33 joints on 5 boards", "Ethernet"),
-        ("pwm", "PWM: 2 joints", "CAN and PWM"),
+        ("can", "33 joints", "CAN", "owner"),
+        ("ethernet", "33 joints on 5 boards", "Ethernet", "owner"),
+        ("pwm", "PWM: 2 joints", "CAN and PWM", "controller"),
     ],
 )
 def test_it_walks_by_frames_and_says_how_the_buses_did(
-    tmp_path: Path, driver: str, said: str, emulated: str
+    tmp_path: Path, driver: str, said: str, emulated: str, who: str
 ):
     world = Simulation().world("empty")
     with LiveRuntime(world, folder=tmp_path, motors=driver) as runtime:
@@ -35,5 +35,5 @@ def test_it_walks_by_frames_and_says_how_the_buses_did(
             return link.body().X_NB.p[0] > 0.2
 
         assert eventually(walked)  # a busy machine takes its time
-    assert said in (tmp_path / "logs" / "controller.log").read_text()
+    assert said in (tmp_path / "logs" / f"{who}.log").read_text()
     assert f"emulated {emulated}: all commands" in (tmp_path / "logs" / "plant.log").read_text()

@@ -191,6 +191,29 @@ def test_from_any_phase_of_a_step_it_is_lowered_on_its_feet_within_3_s(reality, 
         assert robot.owner.state.level == Level.OFF
 
 
+@pytest.mark.parametrize(
+    ("reality", "after_s"),
+    [
+        ("ideal", 0.02),
+        ("harsh", 0.34),
+        *(
+            pytest.param(reality, 0.02 + 0.08 * moment, marks=pytest.mark.rest)
+            for reality in ("ideal", "harsh")
+            for moment in range(8)
+        ),
+    ],
+)
+def test_as_its_weight_goes_to_one_foot_before_a_walk_it_is_lowered_on_both(reality, after_s):
+    with Owned(reality, seed=1, balances=True) as robot:
+        robot.pass_s(0.2, commanded=True)
+        robot.controller.handle(WalkTo(stamp_s=0.0, id=7, x_m=1.0, y_m=0.0, yaw_rad=0.0))
+        robot.pass_s(after_s, commanded=True)
+        robot.pass_s(1.9)
+        assert robot.owner.state.level == Level.SIT
+        assert robot.tilt_rad < math.radians(15.0)
+        assert robot.height_m < 0.75 * robot.body.description.walking.base_height_m
+
+
 def test_a_robot_that_stands_is_lowered_by_its_squat_also_by_an_owner_that_can_balance():
     with Owned("real", seed=1, balances=True) as robot:
         robot.pass_s(0.2, commanded=True)

@@ -4,6 +4,7 @@ import re
 import shutil
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from robot.bus.bus import LocalBus
@@ -12,6 +13,7 @@ from robot.drivers import registry
 from robot.drivers.wiring import Wiring
 from robot.errors import ConfigError
 from robot.model import description
+from robot.model.ownership import BusOwner
 
 JUNO = Path(description.__file__).parent / "juno"
 
@@ -89,3 +91,15 @@ def test_an_unknown_name_is_told_with_file_line_and_the_nearest(
         assert problem.suggestion == cure
         assert problem.file == str(wrong.path())
         assert problem.line == line_of(wrong, word)
+
+
+@pytest.mark.parametrize(
+    ("driver", "usual"),
+    [("", False), ("can", True), ("ethernet", True), ("dynamixel", False), ("pwm", False)],
+)
+def test_motors_are_owned_as_is_usual_for_their_driver_or_as_the_description_says(driver, usual):
+    robot = description.load("juno").driven_by(driver)
+    assert registry.is_owned(robot) == usual
+    for enabled in (True, False):
+        said = msgspec.structs.replace(robot, bus_owner=BusOwner(enabled=enabled))
+        assert registry.is_owned(said) == enabled
