@@ -133,8 +133,8 @@ class Serving:
         self._words = Reported()
         self._held: Change | None = None
         self._answered = 0
-        self._turn, self._gave_s = 0, -math.inf
-        self._good_s = -math.inf
+        self._turn: int = 0
+        self._gave_s = self._good_s = -math.inf
         self.holds = 0
 
     def period(self) -> None:
