@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import Generic, Self, TypeVar
+from typing import ClassVar, Generic, Self, TypeVar
 
 from robot.clock import SimulatedClock
 from robot.closing import Closing
@@ -16,8 +16,11 @@ class DirectLines(Closing, Generic[B]):
     """Lines of one program.
 
     Attributes:
+        all_gone: what is said where all of them are.
         gone: those that a test unplugged, and why they are gone.
     """
+
+    all_gone: ClassVar[str]
 
     def __init__(self, bench: B, clock: SimulatedClock) -> None:
         """Know the bench; nothing is opened."""
@@ -38,7 +41,7 @@ class DirectLines(Closing, Generic[B]):
     def _check(self) -> None:
         """Raises DriverError where they are not open, or all of them are gone."""
         if not self._is_open or len(self.gone) == self._count:
-            raise DriverError("all lines of the motors are gone")
+            raise DriverError(self.all_gone)
 
     def close(self) -> None:
         """Close them."""

@@ -126,6 +126,8 @@ class DirectPorts(DirectLines[EthernetBench]):
         full: boards for which the system takes nothing.
     """
 
+    all_gone = "there is no way to any board"
+
     def __init__(self, bench: EthernetBench, clock: SimulatedClock) -> None:
         """Know the bench; nothing is opened."""
         super().__init__(bench, clock)

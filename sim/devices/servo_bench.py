@@ -101,6 +101,8 @@ def _servo(joint: JointServo, now_s: float, *, swing_rad_s: float, ahead_rad: fl
 class DirectPorts(DirectLines[ServoBench]):
     """A driver's ports straight onto emulated lines."""
 
+    all_gone = "all ports of the servos are gone"
+
     def __init__(self, bench: ServoBench, clock: SimulatedClock) -> None:
         """Know the bench; nothing is opened."""
         super().__init__(bench, clock)
