@@ -26,7 +26,11 @@ NOISE_BLOCK = 256
 
 
 class BodySensors:
-    """Reads one robot out of one simulation; all noise from one generator (None: no noise)."""
+    """Reads one robot out of one simulation; all noise from one generator (None: no noise).
+
+    Attributes:
+        turns: how fast the floor turns, in W [rad/s]; None: it does not.
+    """
 
     def __init__(
         self,
@@ -75,6 +79,8 @@ class BodySensors:
         self._wander = wander
         self._drift: Array = np.zeros(len(self._sigma) - 3 * n - 6)
         self._last_s = 0.0
+        self.turns: tuple[float, float, float] | None = None
+        self._imu_rotation = data.site_xmat[model.site(description.sensors.imu.site).id]
         if flaws is not None:
             self.spoil_imu(ImuFlaws())
 
@@ -113,6 +119,8 @@ class BodySensors:
         self._sensordata.take(self._addresses, out=self._rest, mode="clip")
         np.negative(self._wrenches, out=self._wrenches)  # MuJoCo's wrench: parent on child
         values = truth.copy() if self._rng is None else truth + self._next_noise(self._rng)
+        if self.turns is not None:
+            values[3 * n : 3 * n + 3] += self.turns @ self._imu_rotation.reshape(3, 3)
         if self._imu is not None:
             self._spoil(values, stamp_s)
         rest = values[3 * n :]

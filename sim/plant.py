@@ -40,6 +40,7 @@ from sim.world_schema import World
 NEVER = 1 << 62
 PHYSICS_MS = 1  # with 2 it walks as well, with 5 its DCM is four times as far off
 PAST_TIPPING_RAD = 0.15
+LEAN_STEPS, LEAN_STEP_S = 50, 0.01  # a floor that turns takes half a second
 
 
 class Plant:
@@ -123,6 +124,7 @@ class Plant:
         self._heat_ms = self._ms(HEAT_PERIOD_S)
         self._pulls: list[tuple[int, int, Array]] = []  # until when [ms], body, force
         self._pull_ms = NEVER
+        self._rise = 0.0, 0.0
         self._later: list[tuple[int, int, Callable[[], None]]] = []  # a heap: when [ms], number
         self._numbers = itertools.count()
         self._base = int(self.model.body(robot.base_body).id)
@@ -239,10 +241,24 @@ class Plant:
         self._body.spoil_imu(flaws)
 
     def lean(self, rise_rad: float, uphill_rad: float) -> None:
-        """Let the floor rise towards an angle of the world: gravity leans the other way."""
-        across = GRAVITY_M_S2 * math.sin(rise_rad)
-        x, y = across * math.cos(uphill_rad), across * math.sin(uphill_rad)
-        self.model.opt.gravity[:] = -x, -y, -GRAVITY_M_S2 * math.cos(rise_rad)
+        """Let the floor rise towards an angle of the world: gravity leans the other way.
+
+        It turns within half a second, and as with any floor that turns the gyro feels it.
+        """
+        wanted = rise_rad * math.cos(uphill_rad), rise_rad * math.sin(uphill_rad)
+        step = [(goal - now) / LEAN_STEPS for goal, now in zip(wanted, self._rise, strict=True)]
+        rate = [value / LEAN_STEP_S for value in step]
+
+        def turn(left: int) -> None:
+            x, y = self._rise = self._rise[0] + step[0], self._rise[1] + step[1]
+            rise_rad = math.hypot(x, y)
+            across = GRAVITY_M_S2 * math.sin(rise_rad) / max(rise_rad, 1e-9)
+            self.model.opt.gravity[:] = -across * x, -across * y, -GRAVITY_M_S2 * math.cos(rise_rad)
+            self._body.turns = (rate[1], -rate[0], 0.0) if left else None
+            if left:
+                self.after(LEAN_STEP_S, partial(turn, left - 1))
+
+        turn(LEAN_STEPS - 1)
 
     def load(self, body: str, more_kg: float) -> None:
         """Let a body weigh more from now on."""

@@ -175,13 +175,28 @@ def test_a_sill_lies_across_the_way_and_goes_again(plant):
 
 
 def test_a_slope_leans_gravity_away_from_where_it_rises(plant):
-    apply(plant, faults.Slope(rise_deg=5.0, towards_deg=90.0))
-    g = plant.model.opt.gravity
     yaw = plant.oracle.X_WB().yaw_rad + math.pi / 2
+    apply(plant, faults.Slope(rise_deg=5.0, towards_deg=90.0))
+    plant.step(500)
+    g = plant.model.opt.gravity
     assert np.linalg.norm(g) == pytest.approx(9.81, abs=0.01)
     assert -(g[0] * math.cos(yaw) + g[1] * math.sin(yaw)) == pytest.approx(
         9.81 * math.sin(math.radians(5.0)), abs=0.01
     )
+
+
+def test_the_gyro_feels_a_floor_that_turns(robot, kitchen):
+    plant = Plant(kitchen, robot, seed=0, noisy=False)
+    site = plant.data.site(robot.sensors.imu.site)
+    apply(plant, faults.Slope(rise_deg=3.0, towards_deg=30.0))
+    towards_rad = plant.oracle.X_WB().yaw_rad + math.radians(30.0)
+    up, turned = np.array([math.cos(towards_rad), math.sin(towards_rad), 0.0]), np.zeros(3)
+    for _ in range(600):
+        plant.step(1)
+        felt = plant.read().imu.gyro_rad_s
+        own = plant.data.sensor(robot.sensors.imu.gyro).data
+        turned += 0.001 * site.xmat.reshape(3, 3) @ (felt - own)
+    assert turned == pytest.approx(math.radians(3.0) * np.cross(up, (0.0, 0.0, 1.0)), abs=2e-3)
 
 
 def test_a_load_weighs_on_the_torso(plant):
