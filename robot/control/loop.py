@@ -24,6 +24,7 @@ from robot.control.posture import Posture, steady
 from robot.control.starting import planar
 from robot.control.walking.footsteps import stance_of
 from robot.control.walking.gait_reference import Reference
+from robot.control.walking.stumble import bearing
 from robot.control.whole_body import WholeBody
 from robot.drivers.body_sample import BodySample
 from robot.drivers.motor_bus import Capability, MotorCommand, MotorState
@@ -55,6 +56,7 @@ from robot.messages import (
 )
 from robot.model.body import SIDES, BodyModel
 from robot.model.description import RobotDescription
+from robot.physics import GRAVITY_M_S2
 from robot.se3 import SE3, Array
 
 BUS_PERIOD_S = 0.002
@@ -89,6 +91,7 @@ class ControlLoop:
         self._known: ImuBias | None = None
         self.latency = Latency(self.body.torque_limit_nm, BUS_PERIOD_S)
         self._foresight = Foresight()
+        self._weight_n = self.body.mass_kg * GRAVITY_M_S2
         self._lowering = Lowering(description.walking.base_height_m)
 
     def recall(self, state: BodyState | None) -> None:
@@ -346,7 +349,8 @@ class ControlLoop:
             )  # fmt: skip
         self.head.update(dt_s, dynamics, state.q[self.head.motors])
         q_des[self.head.motors] = self.head.q
-        task, self._reference = self.legs.update(dt_s, dynamics, self.estimator.load, rest_acc)
+        load = bearing(self.estimator.load, sample.force.ankle_wrench, self._weight_n)
+        task, self._reference = self.legs.update(dt_s, dynamics, load, rest_acc)
         solution = self.whole.solve(dynamics, task)
         self._unsolved = 0 if solution.ok else self._unsolved + 1
         if self._unsolved >= UNSOLVED_TO_DAMP:

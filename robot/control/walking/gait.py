@@ -261,13 +261,14 @@ class Gait:
     def _update_single(
         self, dt_s: float, xi: Point, measured: dict[Side, Sole], load: list[float]
     ) -> None:
-        assert self.swing is not None
-        side = other(self.support)
+        side, swing = other(self.support), self.swing
+        assert swing is not None
         if not self._one_leg_s:
             self._adjust(dt_s, xi)
-        self.swing.advance(dt_s)
+        swing.heed(measured[side])
+        swing.advance(dt_s)
+        expected = self.phase_s > EXPECTED_SHARE * self.duration_s and swing.vz <= 0.0
         bears = load[SIDES.index(side)]
-        expected = self.phase_s > EXPECTED_SHARE * self.duration_s and self.swing.vz <= 0.0
         touches = bears > TOUCHDOWN_LOAD and expected
         stamps = bears > STAMP_LOAD and self.phase_s > STAMP_S
         if touches or stamps or self.phase_s > self.duration_s + LATE_S:
@@ -277,9 +278,8 @@ class Gait:
         """The swing foot bears: plan the next double support from where it really stands."""
         xi_ref, _ = self._plan.at(self._plan_time())
         unused_s = max(0.0, min(MAX_UNUSED_S, self.duration_s - self.phase_s))
-        before = self.support
+        before, self.support = self.support, side
         self.planted.update(measured)
-        self.support = side
         self.swing, self._one_leg_s = None, 0.0
         self.steps_taken += 1
         self._heading_rad = self._heading_then_rad

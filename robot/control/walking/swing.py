@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
+
+from robot.control.walking import stumble
 from robot.control.walking.footsteps import Sole
 from robot.model.gait import Walking
 from robot.se3 import wrap_angle
 
 FREEZE_S = 0.08  # before the end: a landing moved later only shakes the foot, until it falls
 LANDING_FILTER_S = 0.04  # for the same reason
+LEAST_M_S = 0.1  # slower, a foot that is behind is not held by anything
 
 
 class Swing:
@@ -18,6 +22,8 @@ class Swing:
         z, vz, az: height of the sole above the floor [m] and its derivatives.
         landing: where it is going to, filtered.
         urgent: whether it is to catch the body: better a little early than late.
+        raises: how often it was lifted over what held it.
+        blocked: whether something holds it, before which it comes down.
     """
 
     def __init__(self, start: Sole, landing: Sole, duration_s: float, walking: Walking) -> None:
@@ -30,18 +36,39 @@ class Swing:
         self.profile = walking.swing_foot
         self.time_s = 0.0
         self.urgent = False
+        self.raises, self.blocked = 0, False
         self.z, self.vz, self.az = 0.0, 0.0, 0.0
         yaw = start.yaw + wrap_angle(landing.yaw - start.yaw)
         self.landing = [landing.x, landing.y, yaw]
 
     def aim(self, landing: Sole, dt_s: float) -> None:
         """Move the landing towards `landing` through a low pass; frozen shortly before the end."""
-        if self.duration_s - self.time_s < FREEZE_S:
+        if self.duration_s - self.time_s < FREEZE_S or self.blocked:
             return
         yaw = self.landing[2] + wrap_angle(landing.yaw - self.landing[2])
         gain = dt_s / (LANDING_FILTER_S + dt_s)
         for k, value in enumerate((landing.x, landing.y, yaw)):
             self.landing[k] += gain * (value - self.landing[k])
+
+    def heed(self, foot: Sole) -> None:
+        """Look at where the foot is; one that something holds goes back, and over it."""
+        vx, vy, _ = self.velocity
+        speed = math.hypot(vx, vy)
+        if self.blocked or speed < LEAST_M_S:
+            return
+        ux, uy = vx / speed, vy / speed
+        if ux * (self.position[0] - foot.x) + uy * (self.position[1] - foot.y) < stumble.BEHIND_M:
+            return
+        over = self.time_s < stumble.OVER_SHARE * self.duration_s
+        self.blocked = not over or self.raises == stumble.MOST_RAISES
+        back_m = stumble.BACK_M
+        self.position[:2] = foot.x - back_m * ux, foot.y - back_m * uy
+        self._rest()
+        if self.blocked:
+            self.landing[:2] = self.position[:2]
+        else:
+            self.raises += 1
+            self.height_m += stumble.RAISE_M
 
     def advance(self, dt_s: float) -> None:
         """Move the reference on by `dt_s`."""
