@@ -33,6 +33,9 @@ MOST_BEHIND_S = 0.01
 """So long the covariance may lag behind the state: integrating the state costs a tenth as much. A
 correction comes every 10 ms, which catches up; longer it lags only where no foot stands."""
 
+NOISE_OF_TILT = 6.0
+"""Squares of `foot_rad` that a sole's tilt, of two axes, is off by in one look of twenty."""
+
 
 def _leg_rows(foot: slice, turn: slice) -> Array:
     """What a leg sees of the errors: its sole's less the base's, shape (6, 27)."""
@@ -217,6 +220,7 @@ class ContactFilter:
             self.standing[side] = known
             if known:
                 self._creep(side, dt_s, load[side])
+                self._rock(side, rotations[side])
         if not self._look(positions, rotations):
             self._look(positions, rotations)  # again, with the foot that slipped set anew
         if self._unlevelled_s > LEVEL_EVERY_S - 1e-6:
@@ -299,6 +303,20 @@ class ContactFilter:
         diagonal[turn + 1] += roll
         diagonal[turn + 2] += twist
 
+    def _rock(self, side: int, rotation: Array) -> None:
+        """A sole that tilts does so about an edge, its own or a sill's: its middle moves as well.
+
+        Not that of a robot that stands firmly on both.
+        """
+        x, y, z = (self.rotation.dot(rotation[:, 2]) - self.turns[side][:, 2]).tolist()
+        tilted = x * x + y * y + z * z - NOISE_OF_TILT * self.parameters.foot_rad**2
+        if tilted <= 0.0 or self.planted:
+            return
+        diagonal, turn = self._diagonal, 15 + 3 * side
+        diagonal[FOOT[side]] += self.parameters.rock_m**2 * tilted
+        diagonal[turn] += tilted
+        diagonal[turn + 1] += tilted
+
     def _leg(self, row: int, side: int, position: Array, rotation: Array) -> int:
         """What a leg measures: the sole from the base; returns the next free row."""
         k, z = self.parameters, self._z
@@ -330,7 +348,8 @@ class ContactFilter:
         repeats = max(1.0, 2.0 * k.flat_time_s / since_s)
         tilted = 1.0 + (ux * ux + uy * uy) / (2.0 * k.flat_rad) ** 2  # on an edge it tells less
         raised = 1.0 + (height / (2.0 * k.height_m)) ** 2
-        higher = abs(height) - abs(float(self.feet[1 - side][2])) - k.step_m
+        beside_m = abs(float(self.feet[1 - side][2])) if self.standing[1 - side] else 0.0
+        higher = abs(height) - beside_m - k.step_m
         if (
             higher > 0.0
         ):  # on a sill, not on the floor: as Geman and McClure weigh outliers, of 2 mm

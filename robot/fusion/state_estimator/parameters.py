@@ -23,11 +23,13 @@ class Parameters(msgspec.Struct, frozen=True, kw_only=True):
         slip_m_rts: how a standing foot creeps.
         roll_rad_rts: how it tilts, on a floor that gives.
         twist_rad_rts: how it turns about the vertical.
+        rock_m: how far from its middle a sole is that tilts about an edge.
         foot_m: error of a sole's position seen from the base: encoders, flexible legs.
         foot_rad: the same of its orientation.
         flat_rad: how far from level a sole stands that bears weight.
         height_m: how far from the floor's height it stands.
-        step_m: a sole that is so much farther from it than the other one stands on something.
+        step_m: a sole that is so much farther from it than the other one, if that stands, stands
+            on something.
         flat_time_s: for how long one such error lasts; a sole does not stand anew each sample.
         tilt_rad: of the first orientation.
         velocity_m_s: of the first velocity.
@@ -49,6 +51,7 @@ class Parameters(msgspec.Struct, frozen=True, kw_only=True):
     slip_m_rts: float = 0.01
     roll_rad_rts: float = 3.0 * DEG
     twist_rad_rts: float = 1.0 * DEG
+    rock_m: float = 0.1
     foot_m: float = 0.003
     foot_rad: float = 0.2 * DEG
     flat_rad: float = 2.5 * DEG

@@ -175,3 +175,20 @@ def test_the_next_one_begins_with_what_is_known(body):
     assert after.imu_bias.gyro_sigma_rad_s == pytest.approx(known.gyro_sigma_rad_s)
     fresh = BaseStateEstimator(body, bench.X_NB)
     assert max(known.gyro_sigma_rad_s) < 0.5 * max(fresh.imu_bias.gyro_sigma_rad_s)
+
+
+def test_what_a_twisting_foot_tells_of_the_past_moves_no_robot_that_walks(body):
+    """Far from where N began, a heading that is put right would put the feet elsewhere."""
+    bench = Bench(body, SE3((8.0, 0.0, 0.6)))
+    for _ in range(100):
+        bench.tick(load=(1.0, 0.0))
+    state = bench.estimator._filter
+    state.covariance[2, 2] = math.radians(2.0) ** 2  # unsure of the heading since the origin
+    foot, place = state.feet[0].copy(), bench.estimator.p.copy()
+    yaw = SE3.from_xy_yaw(0.0, 0.0, math.radians(3.0)).rotation()
+    state.turns[0] = yaw @ state.turns[0]
+    for _ in range(20):
+        bench.tick(load=(1.0, 0.0))
+    assert abs(state.turns[0][1, 0]) > math.radians(0.5)
+    assert math.dist(state.feet[0][:2], foot[:2]) < 0.01
+    assert math.dist(bench.estimator.p[:2], place[:2]) < 0.01
