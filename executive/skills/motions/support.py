@@ -1,7 +1,7 @@
-"""What things stand on: a sighting is off, from afar by centimetres, a surface of the map is not.
+"""What things stand or lie on: a sighting is off, from afar by centimetres, a surface is not.
 
-An upright thing seen just above or somewhat inside a surface stands on it. Planners then do not
-find it sunk into the table, and the hand grasps it at the height that was meant.
+A thing at rest seen just above or somewhat inside a surface is on it. Planners then do not find it
+sunk into the table, and the hand grasps it at the height that was meant.
 """
 
 from __future__ import annotations
@@ -10,47 +10,85 @@ import math
 from collections.abc import Iterable
 
 import msgspec
+import numpy as np
 
 from executive.skills.motions.body_access import Body
 from robot.messages import ObjectInfo, Place, Shape
 from robot.planning.requests import Surroundings
-from robot.se3 import SE3
+from robot.se3 import SE3, Array
 
 NEAR_M = 0.02
 """A sighting is 5 mm off: what is seen so near to a surface is taken to stand on it."""
-SUNK_M = 0.08
-"""A camera that is taken to be level when it nods by 1.5 degrees (an IMU that sits askew, in the
-reality `harsh`) sees what is 3 m away so much too low."""
 UPRIGHT_RAD = 0.2
 OVERHANG_M = 0.02
 LEAST_ON_M, ON_TOP_M = -0.05, 0.3
 FROM_AFAR_M = 0.12
-"""Across a room the same nod (`SUNK_M`) shows a thing so far below what it stands on: 0.12 m from
-4.5 m. Nothing else is there within that height, so it is taken to stand on it."""
+"""A camera that is taken to be level when it nods by 1.5 degrees (an IMU that sits askew, in the
+reality `harsh`) sees what is 3 m away 0.08 m too low, and this much from 4.5 m. Nothing else is
+there within that height, so it is taken to be on what is over it."""
 TOUCHING_M = 0.01
 """Two things as near as this are taken to touch: where they stand is known that well."""
 
 
 def supported(X_WO: SE3, info: ObjectInfo, places: tuple[Place, ...]) -> SE3:
-    """The pose, moved up or down onto the surface that the object must be standing on, if any."""
-    if tilt(X_WO) > UPRIGHT_RAD:
+    """The pose, moved up or down onto the surface that the object must be on, if any.
+
+    What lies is turned level, too: the end of a newspaper that is seen askew is inside the table.
+    What is neither upright nor lies, such as what is about to fall, is left as it is.
+    """
+    if tilt(X_WO) <= UPRIGHT_RAD:
+        bottom_m = info.shape.X_BodyShape.p[2] - 0.5 * info.shape.size_m[2]
+    elif (lying := _lying(X_WO, info.shape)) is not None:
+        X_WO, bottom_m = lying
+    else:
         return X_WO
-    bottom_m = info.shape.X_BodyShape.p[2] - 0.5 * info.shape.size_m[2]
     x_m, y_m, z_m = X_WO.p
     above_m = [
         z_m + bottom_m - place.X_WP.p[2]
         for place in places
-        if -SUNK_M < z_m + bottom_m - place.X_WP.p[2] < NEAR_M and _is_over(place, X_WO)
+        if -FROM_AFAR_M < z_m + bottom_m - place.X_WP.p[2] < NEAR_M and _is_over(place, X_WO)
     ]
     if not above_m:
         return X_WO
     return SE3((x_m, y_m, z_m - min(above_m, key=abs)), X_WO.quat_wxyz)
 
 
+def _lying(X_WO: SE3, shape: Shape) -> tuple[SE3, float] | None:
+    """The pose of what lies on a side, or on its head, made level, and its underside from there.
+
+    Of what is round the axis is level or upright, of a box one of its sides is below. None: none.
+    """
+    X_WShape = X_WO @ shape.X_BodyShape
+    up = X_WShape.rotation()[2]
+    level_up = np.zeros(3)  # what is up of the shape as it lies, in its own frame
+    if shape.kind == "cylinder" and abs(up[2]) < math.sin(UPRIGHT_RAD):
+        level_up[:2] = up[:2]
+        half_m = 0.5 * shape.size_m[0]
+    else:
+        axis = int(np.argmax(np.abs(up)))
+        level_up[axis] = up[axis]
+        half_m = 0.5 * shape.size_m[axis]
+    length = float(np.linalg.norm(level_up))
+    if length < math.cos(UPRIGHT_RAD):
+        return None
+    R_level = _turned_up(X_WShape.rotation() @ (level_up / length)) @ X_WShape.rotation()
+    level = SE3.from_rotation(R_level, X_WShape.p) @ shape.X_BodyShape.inverse()
+    return level, X_WShape.p[2] - half_m - level.p[2]
+
+
+def _turned_up(direction: Array) -> Array:
+    """The least turn that brings a direction, not straight down, upright, shape (3, 3)."""
+    x, y, z = (float(value) for value in direction)
+    k = 1.0 / (1.0 + z)
+    return np.array(
+        [[1.0 - k * x * x, -k * x * y, -x], [-k * x * y, 1.0 - k * y * y, -y], [x, y, z]]
+    )
+
+
 def stands_on(X_WO: SE3, place: Place) -> bool:
     """Whether an object's middle is over a surface, at most `ON_TOP_M` above it.
 
-    A flat thing that is seen from afar may be seen below it (`SUNK_M`).
+    A flat thing that is seen from afar may be seen below it (`FROM_AFAR_M`).
     """
     above_m = _above_m(X_WO, place)
     return LEAST_ON_M <= above_m <= min(ON_TOP_M, place.clearance_m)
