@@ -81,7 +81,8 @@ def pick_options(
         around = _standing_cylinder if stands else _lying_cylinder
         found = around(shape, X_WO, X_WShape, gripping) if widths[0] <= limit else []
     else:
-        widths = list(shape.size_m)
+        upright = int(np.argmax(np.abs(up)))  # fingers close on what is upright of it
+        widths = [size for axis, size in enumerate(shape.size_m) if axis != upright]
         found = _box(shape, X_WO, X_WShape, gripping, limit_m=limit)
     if found:
         return found

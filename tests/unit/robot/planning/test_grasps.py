@@ -94,7 +94,17 @@ def test_what_is_too_wide_has_no_grasp(body: Body) -> None:
     box = Shape(kind="box", size_m=(0.2, 0.3, 0.1))
     found = pick_options(box, AT, hand=hand, gripping=gripping)
     assert isinstance(found, Failure)
-    assert (found.code, found.evidence["width_m"]) == ("no_grasp", pytest.approx(0.1))
+    assert (found.code, found.evidence["width_m"]) == ("no_grasp", pytest.approx(0.2))
+
+
+def test_how_wide_a_book_is_that_lies_is_not_how_thick_it_is(body: Body) -> None:
+    """It said "it is 4 cm wide and the hand opens 9 cm for it"."""
+    hand, gripping = body.description.hands["right"], body.description.handy.gripping
+    book = Shape(kind="box", size_m=(0.12, 0.18, 0.04))
+    found = pick_options(book, AT, hand=hand, gripping=gripping)
+    assert isinstance(found, Failure)
+    assert (found.code, found.evidence["width_m"]) == ("no_grasp", pytest.approx(0.12))
+    assert "12 cm wide" in found.cause
 
 
 def test_a_held_thing_is_put_down_as_it_is_held(body: Body) -> None:
