@@ -10,6 +10,7 @@ from executive.skills.forecast import Forecast, Outlook
 from executive.skills.holding import Held
 from executive.skills.motions.approach import approach, come_nearer, withdraw
 from executive.skills.motions.fingers import (
+    begin_opening,
     check_grips,
     check_taken,
     close_fingers,
@@ -256,6 +257,9 @@ class Pick(ScriptedSkill[PickParams]):
         body = self.body
         for attempt in range(1 + REACH_CORRECTIONS):
             body.phase = f"looking at the {info.name}"
+            opening_m = plan.opening_m + body.description.handy.gripping.open_to_take_m
+            if attempt == 0:  # they may open while it looks: the hand is before the thing by then
+                begin_opening(body, plan.side, opening_m=opening_m)
             X_WO = yield from see(body, info.id, remembered_since_s=self._begin_s)
             check_reachable(body, info, X_WO)
             if has_fallen(plan, X_WO):

@@ -10,11 +10,17 @@ LONGER_S = 1.0
 """Than the hand's own control waits for its fingers, which says so itself then."""
 
 
-def open_fingers(body: Body, side: Side, *, opening_m: float | None = None) -> Script[None]:
-    """Open to a width (None: as far as they go) and wait until they have."""
+def begin_opening(body: Body, side: Side, *, opening_m: float | None = None) -> float:
+    """Have them open to a width (None: as far as they go); returns the width asked for [m]."""
     most_m = body.description.hands[side].max_opening_m
     wanted_m = most_m if opening_m is None else min(opening_m, most_m)
     body.send(Grip(**body.header(), side=side, opening_m=wanted_m))
+    return wanted_m
+
+
+def open_fingers(body: Body, side: Side, *, opening_m: float | None = None) -> Script[None]:
+    """Open to a width (None: as far as they go) and wait until they have."""
+    wanted_m = begin_opening(body, side, opening_m=opening_m)
     yield from _settle(body, side)
     if body.hand(side).opening_m < wanted_m - 0.02:
         raise give_up(

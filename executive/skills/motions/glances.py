@@ -6,6 +6,8 @@ seen well is for the world model to say, and what was not is gone to as planned.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -49,6 +51,18 @@ def glance(body: Body, survey: Survey) -> Vector3 | None:
             return (x, y, z)
         left &= np.abs(bearings - bearings[at]) > cone_rad
     return None
+
+
+def may_look_at(body: Body, p_W: Vector3) -> bool:
+    """Whether the head turns to a point by itself, and nothing that the map has hides it."""
+    x_m, y_m, _ = body.X_WS.p
+    ahead_m, left_m, _ = body.X_WS.inverse().apply((p_W[0], p_W[1], 0.0)).tolist()
+    if abs(math.atan2(left_m, ahead_m)) > HEAD_SHARE * looking.aside_rad(body.description):
+        return False
+    far_m = math.dist(p_W[:2], (x_m, y_m))
+    near = [thing for thing in body.map.obstacles if clearance_m((x_m, y_m), thing) < far_m]
+    things = _others(near, np.array(p_W))
+    return between((x_m, y_m), (p_W[0], p_W[1]), things, height_m=p_W[2]) is None
 
 
 def _best(bearings: Array, worth: Array, left: NDArray[np.bool_], cone_rad: float) -> int:

@@ -10,7 +10,7 @@ import numpy as np
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.final_steps import miss, step_to
 from executive.skills.motions.gaze import check_camera, look_at, turn_head
-from executive.skills.motions.glances import glance
+from executive.skills.motions.glances import glance, may_look_at
 from executive.skills.motions.likelihood import surfaces_of
 from executive.skills.motions.past_people import ask_view_past_people
 from executive.skills.motions.personal_space import get_familiar
@@ -59,17 +59,25 @@ def limit_s(body: Body, places: int | None = None) -> float:
     return BESIDES_S + PLACE_S * count + round_m / looking.walk_m_s(body.description)
 
 
-def look_over(body: Body, survey: Survey, until: Until, *, stay: bool = False) -> Script[bool]:
+def look_over(
+    body: Body,
+    survey: Survey,
+    until: Until,
+    *,
+    stay: bool = False,
+    in_passing: Until = lambda: False,
+) -> Script[bool]:
     """Look at what a survey has left, until something is so or nothing is left to be seen.
 
-    Returns whether it came to be so; the robot stands then. With `stay` it only turns on the spot.
+    Returns whether it came to be so; the robot stands then, unless it was so `in_passing`: then
+    whoever goes on need not set out anew. With `stay` it only turns on the spot.
     """
     body.glance = lambda: glance(body, survey)
     try:
         found = yield from _look_over(body, survey, until, stay=stay)
     finally:
         body.glance = None
-    if body.state.mode != "stand":
+    if body.state.mode != "stand" and not (found and in_passing()):
         yield from stand_still(body)
     return found
 
@@ -93,28 +101,37 @@ def _look_over(body: Body, survey: Survey, until: Until, *, stay: bool) -> Scrip
                 raise
             survey.tried(rows, plan.stance[:2])
             continue
-        if not survey.unseen(rows) and not until():
+        if until():
+            return True
+        if not survey.unseen(rows):
             continue
         if (yield from _standing(body, _gazes(body, survey, plan, rows, until))):
             return True
         survey.tried(rows, plan.stance[:2])
 
 
-def stand_to_see(body: Body, p_W: Vector3) -> Script[bool]:
-    """Walk to where a point can be seen from; whether there is such a place and a way to it."""
+def walk_to_see(body: Body, p_W: Vector3, until: Until) -> Script[bool]:
+    """Walk to where a point can be seen from; whether there is such a place and a way to it.
+
+    The robot stands then, unless something is so before: it looks there whenever it can.
+    """
     request = LookRequest(
         start=stance_of(body.X_WS), points_W=(p_W,), worth=(1.0,), around=surroundings(body)
     )
     plan = yield from ask_view_past_people(body, request)
     if plan.stance is None:
         return False
+    body.glance = lambda: p_W if may_look_at(body, p_W) else None
     try:
-        yield from _go(body, plan, lambda: False)
-        yield from stand_still(body)
+        yield from _go(body, plan, until)
+        if not until():
+            yield from stand_still(body)
     except GaveUp as end:
         if end.failure.code not in NO_WAY:
             raise
         return False
+    finally:
+        body.glance = None
     return True
 
 

@@ -6,10 +6,11 @@ import math
 from collections.abc import Sequence
 
 from executive.skills.motions.body_access import Body
-from executive.skills.motions.gaze import fresh_track, see
+from executive.skills.motions.gaze import SIGHTINGS, fresh_track, see
 from executive.skills.motions.likelihood import prospects
-from executive.skills.motions.look_over import Until, look_over, stand_to_see
+from executive.skills.motions.look_over import look_over, walk_to_see
 from executive.skills.motions.script import GaveUp, Script, give_up
+from executive.skills.motions.support import pose_on_support
 from executive.skills.motions.survey import Survey
 from robot.messages import Track
 from robot.se3 import SE3
@@ -20,6 +21,8 @@ IN_VIEW_S = 2.0
 """What was seen that lately need not be looked for again."""
 FRESH_S = 600.0
 """What was looked over longer ago may hold something else by now."""
+GLIMPSED_S = 0.8
+"""What shows in one picture on the way shows in more by then, or the feet stop for it."""
 
 
 def find(
@@ -30,6 +33,9 @@ def find(
     Looks at the places first, then wherever else it may be. What the world model has seen since the
     object was seen last is not looked at again, whichever skill or job that was for; but a search
     after one that was in vain begins anew. Gives up with `object_not_seen`, saying where it looked.
+
+    The feet do not stop for what is seen well enough on the way: who takes it sets out again at
+    once. Where nobody tells them to go on they come to rest by themselves.
     """
     name = body.object_info(object_id).name
     believed = _believed(body, object_id)
@@ -42,8 +48,8 @@ def find(
             return found
     body.phase = f"looking around for the {name}"
     survey = _survey(body, object_id, place_ids)
-    while (yield from look_over(body, survey, _shows(body, object_id))):
-        X_WO = yield from _make_sure(body, object_id)
+    while (shows := (yield from _look_further(body, survey, object_id))).count:
+        X_WO = shows.X_WO() if shows.enough else (yield from _make_sure(body, object_id))
         if X_WO is not None:
             return X_WO
     body.context.searched_s[object_id] = body.now_s
@@ -53,6 +59,13 @@ def find(
         object=object_id,
         looked="everywhere",
     )
+
+
+def _look_further(body: Body, survey: Survey, object_id: str) -> Script[_Sightings]:
+    """Look over what a survey has left until an object shows."""
+    shows = _Sightings(body, object_id)
+    yield from look_over(body, survey, shows, in_passing=lambda: shows.enough)
+    return shows
 
 
 def _survey(body: Body, object_id: str, place_ids: Sequence[str]) -> Survey:
@@ -76,15 +89,44 @@ def _check_belief(body: Body, object_id: str, X_WO: SE3) -> Script[SE3 | None]:
         found = yield from _make_out(body, object_id)
         if found is not None:
             return found
-    if not (yield from stand_to_see(body, X_WO.p)):
+    shows = _Sightings(body, object_id, within_m=SIGHT_M)
+    if not (yield from walk_to_see(body, X_WO.p, lambda: shows() and shows.enough)):
         return None
-    return (yield from _make_out(body, object_id))
+    return shows.X_WO() if shows.enough else (yield from _make_out(body, object_id))
 
 
-def _shows(body: Body, object_id: str) -> Until:
-    """Whether an object has been seen after now."""
-    since_s = body.now_s
-    return lambda: fresh_track(body, object_id, since_s) is not None
+class _Sightings:
+    """In how many pictures an object has been seen since now; called, whether the feet may stop.
+
+    On the way for one picture they do not, unless no other follows.
+    """
+
+    def __init__(self, body: Body, object_id: str, *, within_m: float = math.inf) -> None:
+        """Those from as near as that count."""
+        self._body, self._object_id, self._within_m = body, object_id, within_m
+        self._first_s = self._last_s = body.now_s
+        self.count = 0
+
+    def __call__(self) -> bool:
+        """Take note of what has been seen; asked in every tick."""
+        body, track = self._body, fresh_track(self._body, self._object_id, self._last_s)
+        if track is not None and track.X_WO is not None and track.seen_s > self._last_s:
+            far_m = math.dist(track.X_WO.p[:2], body.X_WS.p[:2])
+            if far_m <= self._within_m:
+                self._first_s = self._first_s if self.count else body.now_s
+                self._last_s, self.count = track.seen_s, self.count + 1
+        waits = body.state.mode == "walk" and body.now_s - self._first_s < GLIMPSED_S
+        return self.enough or (self.count > 0 and not waits)
+
+    @property
+    def enough(self) -> bool:
+        """Whether no look is needed any more."""
+        return self.count >= SIGHTINGS
+
+    def X_WO(self) -> SE3 | None:
+        """Where it was seen last."""
+        X_WO = _believed(self._body, self._object_id)
+        return None if X_WO is None else pose_on_support(self._body, self._object_id, X_WO)
 
 
 def _make_out(body: Body, object_id: str) -> Script[SE3 | None]:

@@ -8,9 +8,10 @@ from msgspec.structs import replace
 from executive.behaviours.run_skill import DEFAULT_LIMIT_S
 from executive.skills.inspect import RECENT_S, InspectParams
 from executive.skills.motions.look_over import VIEW_M
+from executive.skills.motions.object_search import GLIMPSED_S
 from executive.skills.search import SearchParams
 from executive.skills.skill import Lasting
-from robot.messages import Look, Walk
+from robot.messages import Look, Stand, Walk
 from robot.planning.requests import BasePathRequest, LookPlan, LookRequest
 from robot.se3 import SE3
 from tests.fakes.stage import Stage
@@ -170,3 +171,34 @@ def test_where_it_was_said_to_be_is_looked_at_first(stage):
     stage.puppet.X_WS = SE3((-1.0, -2.5, 0.0))
     stage.run(SearchParams(object_id="cup", place_ids=("counter",)), until_phase="looking over")
     assert stage.phases[-1] == "looking over the counter"
+
+
+def shown_at(stage, times_s: tuple[float, ...]) -> None:
+    """The cup shows in the pictures of these times, wherever the robot looks."""
+    puppet, cup, tick = stage.puppet, stage.puppet.things["cup"], stage.puppet.tick
+    left = list(times_s)
+
+    def passing() -> None:
+        tick()
+        cup.known = cup.seen_s > -math.inf
+        if left and puppet.time_s >= left[0]:
+            cup.known, cup.seen_s = True, left.pop(0)
+
+    puppet.tick = passing
+
+
+def test_the_feet_do_not_stop_for_what_shows_often_enough_on_the_way(stage):
+    stage.puppet.X_WS = SE3((-2.5, -2.5, 0.0))
+    shown_at(stage, (5.0, 5.2, 5.4))
+    assert stage.run(SearchParams(object_id="cup")).status == "succeeded"
+    assert stage.puppet.time_s == pytest.approx(5.4, abs=0.15)
+    assert stage.puppet.mode == "walk", "who takes it sets out again at once"
+    assert isinstance([c for c in stage.puppet.sent if isinstance(c, Walk | Stand)][-1], Walk)
+
+
+def test_the_feet_stop_for_what_showed_once(stage):
+    stage.puppet.X_WS = SE3((-2.5, -2.5, 0.0))
+    shown_at(stage, (5.0,))
+    assert stage.run(SearchParams(object_id="cup")).status == "succeeded"
+    assert stage.puppet.time_s > 5.0 + GLIMPSED_S
+    assert stage.puppet.mode == "stand"
