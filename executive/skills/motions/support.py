@@ -36,21 +36,26 @@ def supported(X_WO: SE3, info: ObjectInfo, places: tuple[Place, ...]) -> SE3:
     What lies is turned level, too: the end of a newspaper that is seen askew is inside the table.
     What is neither upright nor lies, such as what is about to fall, is left as it is.
     """
-    if tilt(X_WO) <= UPRIGHT_RAD:
-        bottom_m = info.shape.X_BodyShape.p[2] - 0.5 * info.shape.size_m[2]
-    elif (lying := _lying(X_WO, info.shape)) is not None:
-        X_WO, bottom_m = lying
-    else:
+    resting = _resting(X_WO, info.shape)
+    if resting is None:
         return X_WO
-    x_m, y_m, z_m = X_WO.p
+    X_WO_level, bottom_m = resting
+    x_m, y_m, z_m = X_WO_level.p
     above_m = [
         z_m + bottom_m - place.X_WP.p[2]
         for place in places
-        if -FROM_AFAR_M < z_m + bottom_m - place.X_WP.p[2] < NEAR_M and _is_over(place, X_WO)
+        if -FROM_AFAR_M < z_m + bottom_m - place.X_WP.p[2] < NEAR_M and _is_over(place, X_WO_level)
     ]
     if not above_m:
         return X_WO
-    return SE3((x_m, y_m, z_m - min(above_m, key=abs)), X_WO.quat_wxyz)
+    return SE3((x_m, y_m, z_m - min(above_m, key=abs)), X_WO_level.quat_wxyz)
+
+
+def _resting(X_WO: SE3, shape: Shape) -> tuple[SE3, float] | None:
+    """The pose of what is at rest, and its underside from there [m]; None: it is about to fall."""
+    if tilt(X_WO) <= UPRIGHT_RAD:
+        return X_WO, shape.X_BodyShape.p[2] - 0.5 * shape.size_m[2]
+    return _lying(X_WO, shape)
 
 
 def _lying(X_WO: SE3, shape: Shape) -> tuple[SE3, float] | None:
