@@ -11,8 +11,8 @@ from collections.abc import Callable
 from msgspec.structs import replace
 
 from intents import looking_back, plans, replies, small_questions, wording
-from intents.allowed import excess
-from intents.amounts import amended
+from intents.amending import swapped
+from intents.answering import asks_where, confirmation, told_at_once
 from intents.context import Context, answered, noted, verdict_of
 from intents.correcting import in_full, is_correction, is_turn
 from intents.distances import how_far
@@ -20,17 +20,14 @@ from intents.goals import (
     Balance,
     Bring,
     Cancel,
-    Find,
     Give,
     Goal,
-    ObjectQuery,
     Pause,
     Pick,
     Place,
     Report,
     Resume,
     Stop,
-    Tell,
     Wait,
     each,
 )
@@ -38,28 +35,21 @@ from intents.grammar import SHALL_NOT
 from intents.grounding import queries
 from intents.halting import besides, without_care
 from intents.in_hand import which_in_hand
-from intents.outcomes import YES_OR_NO, Goals, Outcome, Question, Refusal, Reply, Turn
+from intents.outcomes import Goals, Outcome, Question, Refusal, Reply, Turn
 from intents.parser import Fallback, hear
 from intents.plans import HOW_I_READ_IT
 from intents.risks import risk
 from intents.state import RobotState
 from intents.stopping import is_stop
-from intents.swaps import focused, is_alike, swap
 from intents.the_rest import is_rest, with_the_rest
 from intents.undoing import is_back, is_things_back, is_undo, is_undo_of_several, undone
 from intents.vocabulary import Vocabulary
-from intents.wording import sentence_case
 
 __all__ = ["Context", "Dialogue"]
 
 TAKES_CARE = "I take care in any case; I did not get what I am to do."
 MAX_REPEATS = 2
 """A question is asked again so often; then it is dropped and the refusal told."""
-_WHERE = re.compile(
-    r"\bwhere(?:'s|s|\s)|^\W*(?:is|are)\b|^\W*(?:do|can|have) you "
-    r"(?:see|know|seen|find)\b",
-    re.IGNORECASE,
-)
 _AGAIN = re.compile(
     r"(?:(?:and|now|ok|okay|please|robot)\W+)*"
     r"(?:(?:do|try|repeat)(?: (?:it|that|this|the same(?: thing)?))? )?"
@@ -193,7 +183,7 @@ class Dialogue:
         self._back_to_order(text, state)
         turn = turn or self._revised(text, state) or self._understand(text, state, opened)
         self._told_of = text if isinstance(turn, Reply) else ""
-        self._asked_where = bool(_WHERE.search(text)) and isinstance(turn, Reply)
+        self._asked_where = asks_where(text) and isinstance(turn, Reply)
         if isinstance(turn, Goals) and not all(isinstance(goal, _STEERING) for goal in turn.goals):
             self._before = (turn.goals, state)
             handled = any(isinstance(goal, _HANDLING) for goal in each(turn.goals))
@@ -223,33 +213,9 @@ class Dialogue:
     def _read(self, text: str, state: RobotState) -> Outcome:
         """What a sentence means by itself, here and now."""
         before = replace(self.context, question=None, entities=state.entities, view=state.view)
-        return (self._swapped(text, before) or hear(text, self.vocabulary, context=before))[0]
-
-    def _swapped(self, text: str, before: Context) -> tuple[Outcome, Context] | None:
-        """What "not the bottle, the box" makes of the goals before, if they speak of a bottle.
-
-        Or what "no, three times" does, if one of them has such an amount.
-        """
-        opened = before.question
-        other = (
-            None if opened and not small_questions.is_halt(opened) else amended(text, before.goals)
-        )
-        if other is not None:
-            after = replace(before, goals=other, question=None)
-            too_much = excess(other)
-            if too_much:
-                return Refusal(reason=f"{sentence_case(too_much)}."), before
-            return Goals(goals=other, elliptic=True), after
-        found = swap(text) if opened is None or small_questions.is_halt(opened) else None
-        about = focused(before, found.old) if found else None
-        if found is None or about is None:
-            return None
-        outcome, after = hear(f"no, {found.new}", self.vocabulary, context=about)
-        if isinstance(outcome, Refusal):
-            return None if found.by_name else (outcome, after)
-        changed = outcome.goals != before.goals
-        alike = not found.by_name or is_alike(outcome.goals, before.goals)
-        return (outcome, after) if changed and alike else None
+        return (
+            swapped(text, before, self.vocabulary) or hear(text, self.vocabulary, context=before)
+        )[0]
 
     def ask(self, question: Question) -> None:
         """Put a question of somebody else's, as the one that is open from now on."""
@@ -272,7 +238,7 @@ class Dialogue:
     def corrects(self, text: str, goals: tuple[Goal, ...], state: RobotState) -> bool:
         """Whether a sentence says by name what of these goals is another: "not the cup, ..."."""
         before = replace(self.context, goals=goals, entities=state.entities, view=state.view)
-        return self._swapped(text, before) is not None
+        return swapped(text, before, self.vocabulary) is not None
 
     def about(self, goals: tuple[Goal, ...]) -> None:
         """What is said next is about these goals, whatever was asked after them."""
@@ -334,7 +300,7 @@ class Dialogue:
         if pending is not None:
             self.context = replace(pending, question=None, said=self.context.said)
         agreed = Goals(goals=opened.goals, parser=opened.parser, instead=self._instead)
-        told = self._told(text, agreed, state)
+        told = told_at_once(text, agreed, state)
         return told if isinstance(told, Reply) else agreed
 
     def _revised(self, text: str, state: RobotState) -> Turn | None:
@@ -360,10 +326,10 @@ class Dialogue:
 
     def _understand(self, text: str, state: RobotState, opened: Question | None) -> Turn:
         before = replace(self.context, entities=state.entities, view=state.view)
-        swapped = self._swapped(text, before)
-        corrects = is_correction(text) or is_turn(text, before) or swapped is not None
+        other = swapped(text, before, self.vocabulary)
+        corrects = is_correction(text) or is_turn(text, before) or other is not None
         text = in_full(text, before, self.vocabulary)
-        outcome, after = swapped or hear(
+        outcome, after = other or hear(
             text, self.vocabulary, context=before, fallback=self.fallback
         )
         if _ends_it(outcome) and (careful := without_care(text)) != text:
@@ -407,7 +373,7 @@ class Dialogue:
         """
         alone, _ = hear(text, self.vocabulary, context=replace(before, question=None))
         if isinstance(alone, Goals) and isinstance(outcome, Goals) and alone.goals == outcome.goals:
-            told = self._told(text, alone, state)
+            told = told_at_once(text, alone, state)
             if isinstance(told, Question) and small_questions.is_halt(opened):
                 told = small_questions.without_offer(told)
             aside = told or small_questions.not_offered(text, opened, alone)
@@ -426,7 +392,7 @@ class Dialogue:
 
     def _settle(self, text: str, outcome: Goals, after: Context, state: RobotState) -> Turn:
         """Answer what needs no motion, confirm what is risky, and pass on the rest."""
-        told = self._told(text, outcome, state)
+        told = told_at_once(text, outcome, state)
         self._answered = isinstance(told, Reply)
         if isinstance(told, Reply):
             self.context = after
@@ -438,25 +404,11 @@ class Dialogue:
             self.context = after
             return outcome
         readback = plans.proposal(outcome.goals, why)
-        question = told or _confirmation(outcome, readback)
+        question = told or confirmation(outcome, readback)
         question = replace(question, text=text, ms=outcome.ms)
         self._pending = after
         self.context = replace(self.context, question=question)
         return question
-
-    def _told(self, text: str, outcome: Goals, state: RobotState) -> Reply | Question | None:
-        """What can be said at once, or asked because it is not known."""
-        asked = _as_asked(text, outcome)
-        answers = [_known(said, goal, state) for said, goal in asked]
-        told = list(dict.fromkeys(filter(None, answers)))
-        if told and all(answers):
-            return Reply(text=" ".join(told))
-        open_ = [one for one, answer in zip(asked, answers, strict=True) if not answer]
-        sought = _sought(*open_[0]) if len(open_) == 1 else None
-        if sought is None:
-            return None
-        question = " ".join([*told, replies.unknown_place(sought)])
-        return _confirmation(Goals(goals=(open_[0][1],)), question)
 
 
 def in_turn(turn: Turn) -> str:
@@ -468,31 +420,6 @@ def in_turn(turn: Turn) -> str:
     return turn.reason if isinstance(turn, Refusal) else turn.text
 
 
-def _as_asked(text: str, outcome: Goals) -> list[tuple[str, Goal]]:
-    """Each goal with the words that it was read from, as far as they can be told apart."""
-    if len(outcome.goals) == 1:
-        return [(text, outcome.goals[0])]
-    asked = [(said, goal) for said, goals in outcome.clauses for goal in goals]
-    if [goal for _, goal in asked] != list(outcome.goals):
-        return [("", goal) for goal in outcome.goals]
-    return asked
-
-
-def _known(said: str, goal: Goal, state: RobotState) -> str:
-    """The answer to a question, from what is known; empty if it is none, or that is not known."""
-    if isinstance(goal, Report):
-        return replies.report(goal.topic, state)
-    if isinstance(goal, Tell):
-        return replies.told(goal, state) or ""
-    sought = _sought(said, goal)
-    return (replies.where(sought, state) or "") if sought is not None else ""
-
-
-def _sought(said: str, goal: Goal) -> ObjectQuery | None:
-    """What it was asked where it is; "find it" is a wish to have it looked for."""
-    return goal.object if isinstance(goal, Find) and _WHERE.search(said) else None
-
-
 def _ends_it(outcome: Outcome) -> bool:
     """Whether all that is understood, or offered, is to end what is being done."""
     return not isinstance(outcome, Refusal) and outcome.goals in ((Cancel(),), (Stop(),))
@@ -500,13 +427,3 @@ def _ends_it(outcome: Outcome) -> bool:
 
 def _is_choice(outcome: Turn | None) -> bool:
     return isinstance(outcome, Question) and outcome.kind == "choice"
-
-
-def _confirmation(outcome: Goals, question: str) -> Question:
-    return Question(
-        question=question,
-        choices=YES_OR_NO,
-        goals=outcome.goals,
-        kind="confirmation",
-        parser=outcome.parser,
-    )

@@ -2,18 +2,20 @@
 
 A noun phrase is read in three parts: what stands before the noun (how many, which, what colour;
 `premodifiers.py`), the noun (`nouns.py`), and what follows it, in this file, since it holds noun
-phrases in turn: where the thing is, relative clauses. Nothing is decided here about what the phrase
+phrases in turn: where the thing is, relative clauses; boards of furniture hold none (`boards.py`).
+Nothing is decided here about what the phrase
 is for; `referents.py` turns it into an object, a person or a place.
 """
 
 from intents.english.phrases.appearance import read_appearance
 from intents.english.phrases.bare_phrases import bare_phrase
+from intents.english.phrases.boards import board_after, board_of
 from intents.english.phrases.phrase import SOMETHING, Locative, NounPhrase, is_at_it, is_content
 from intents.english.phrases.pronouns import part_of
 from intents.english.phrases.times import tells_when
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, singular
-from intents.english.words.lexicon import DETERMINERS, LEVELS, LOCATIVES
+from intents.english.words.lexicon import DETERMINERS, LOCATIVES
 from intents.english.words.text import Text
 from intents.english.words.verbs import verbs_at
 from intents.goals import Superlative
@@ -78,7 +80,7 @@ def noun_phrase(text: Text, start: int) -> NounPhrase | None:
 def read_postmodifiers(text: Text, phrase: NounPhrase) -> None:
     """Read on from the noun; moves ``phrase.end``."""
     while True:
-        end = _measured_out(text, phrase, phrase.end) or _board_after(text, phrase, phrase.end)
+        end = _measured_out(text, phrase, phrase.end) or board_after(text, phrase, phrase.end)
         end = end or _modifier(text, phrase, phrase.end) or _relative(text, phrase, phrase.end)
         if end is None:
             return
@@ -96,7 +98,7 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
     inner = noun_phrase(text, at + 1)
     if inner is None or inner.is_person:
         return None
-    board = _board_of(text, phrase, inner)
+    board = board_of(text, phrase, inner)
     if board:
         return board
     counted = phrase.noun in ("one", "object") or not phrase.said
@@ -117,41 +119,6 @@ def _measured_out(text: Text, phrase: NounPhrase, at: int) -> int | None:
     accessory = phrase.name("object") and inner.name("object") and inner.determiner in _WHOSE
     phrase.places += inner.places if accessory else []
     return inner.end if accessory else None  # the charger of my laptop
-
-
-def _board_of(text: Text, phrase: NounPhrase, inner: NounPhrase) -> int | None:
-    """The upper board *of the bookcase*, where the world has an "upper bookcase"."""
-    level, _, noun = phrase.said.rpartition(" ")
-    if noun not in lexicon.BOARDS or not inner.name("place"):
-        return None
-    if not _is_board(text, phrase, phrase.level or level, inner.said):
-        return None
-    phrase.places += inner.places
-    return inner.end
-
-
-def _board_after(text: Text, phrase: NounPhrase, at: int) -> int | None:
-    """The bookcase, *top board*; the bookcase, *on its second shelf*."""
-    if not phrase.name("place"):
-        return None
-    at += text.word(at) == COMMA
-    at += text.word(at) in ("on", "at")
-    at += text.word(at) in ("the", "its")
-    if text.word(at + 1) not in lexicon.BOARDS:
-        return None
-    return at + 2 if _is_board(text, phrase, text.word(at), phrase.said) else None
-
-
-def _is_board(text: Text, phrase: NounPhrase, level: str, furniture: str) -> bool:
-    """Name the board of a piece of furniture in a phrase; whether the world has such a one."""
-    for word in LEVELS.get(level, ()):
-        named = text.index.exact(f"{word} {furniture}") or text.index.exact(f"{furniture} {word}")
-        if named:
-            phrase.noun, phrase.names, phrase.exact = "name", named, True
-            phrase.level = phrase.side = ""
-            phrase.said = f"{word} {furniture}"
-            return True
-    return False
 
 
 def _relative(text: Text, phrase: NounPhrase, at: int) -> int | None:
