@@ -29,6 +29,7 @@ from intents.english.trouble import (
     Unread,
 )
 from intents.english.words.names import NameIndex
+from intents.english.words.taking_back import behind_what_takes_back
 from intents.goals import Goal, If, Say, each
 from intents.outcomes import YES_OR_NO, Goals, Outcome, Question, Refusal
 from intents.sentence_kind import SentenceKind, kind_of
@@ -146,6 +147,7 @@ def second_look(
         hardly = sure[0] < DOUBTFUL and likely > RIVAL
         says = any(isinstance(goal, Say) for goal in each(first.goals))  # word for word
         hardly = hardly and not says and not _passes_orders(text, best, read)
+        hardly = hardly and behind_what_takes_back(text) is None  # that the fields know seldom
         sound = alike or not hardly or not is_known(first.goals, fields)
         return first if sound else _instead(text, best, likely, first)
     kind = kind_of(text, best.attempt.goals, tells=first.tells)

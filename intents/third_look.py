@@ -19,7 +19,6 @@ from intents.doubts import (
     leaves_out,
     needed,
     offers,
-    takes_back,
 )
 from intents.english.faithfulness import strings
 from intents.english.learnt.choice import SILENT, Both, Kind, Name, Side, alone, choice
@@ -62,6 +61,7 @@ from intents.second_look import (
     remarked,
 )
 from intents.sentence_kind import LOOKING
+from intents.taken_back import takes_back
 
 LIKELY, HEARD = 0.35, 0.3
 """From the first on the network's reading is asked about, where the grammar could not read every

@@ -22,6 +22,7 @@ from intents.english.trouble import Partly
 from intents.english.words import lexicon
 from intents.english.words.lexer import words_in
 from intents.english.words.names import NameIndex
+from intents.english.words.taking_back import behind_what_takes_back
 from intents.goals import Cancel, Goal, GoTo, ObjectQuery, Pause, Stop, Tell, to_builtins
 from intents.outcomes import Goals
 from intents.plain_words import plainly
@@ -47,7 +48,7 @@ _PLAIN, _NEARLY, _FREELY = _Bounds(0.25, 0.7), _Bounds(0.42, 0.7), _Bounds(0.55,
 the check had not seen 320 are checked and 81 asked about, of which 50 were not meant."""
 _HARMLESS = (Stop, Pause, Cancel)
 _TAKEN_BACK = lexicon.words("no nope instead rather")
-"""With these the grammar knows what takes whose place, and the network seldom."""
+"""With these, too, the grammar knows what takes whose place, and the network seldom."""
 _QUOTED = re.compile(r"[\"“”]|(?<!\w)'\w[^']*'(?!\w)")
 _QUOTES, _YOU = "“”", lexicon.words("you your yours yourself 're 've are have do were don't")
 
@@ -147,7 +148,7 @@ def _is_weighable(text: str) -> bool:
     """Whether the network can tell anything of a sentence."""
     if len(text.split()) > LONGEST or is_plain(text) or _QUOTED.search(text):
         return False
-    return _TAKEN_BACK.isdisjoint(words_in(text))
+    return _TAKEN_BACK.isdisjoint(words_in(text)) and behind_what_takes_back(text) is None
 
 
 def _told_there(goals: tuple[Goal, ...]) -> tuple[Goal, ...]:

@@ -45,6 +45,7 @@ from intents.english.words.second_thoughts import second_thoughts
 from intents.english.words.singling_out import singled_out
 from intents.english.words.spelling import KNOWN_WORDS, speller_of
 from intents.english.words.superlatives import listed_superlatives
+from intents.english.words.taking_back import interruptions
 from intents.english.words.texting import spelled_out
 from intents.english.words.titles import without_titles
 from intents.english.words.verbs import FIRST_WORDS, participle_base, verbs_at
@@ -131,9 +132,8 @@ class Text:
         self.index: NameIndex = index
         speller = speller_of(vocabulary)
         corrected: list[Token] = []
-        tokens, self.corrections = spelled_out(
-            listed_superlatives(_without_name(tokenize(text), self.index)), self.index
-        )
+        tokens = interruptions(_without_name(tokenize(text), self.index), self.index)
+        tokens, self.corrections = spelled_out(listed_superlatives(tokens), self.index)
         tokens = without_particles(second_thoughts(tokens), self.index)
         tokens = in_sentences(tokens, self.index)
         tokens = without_purposes(in_english_order(tokens, self.index), self.index)

@@ -22,7 +22,6 @@ MILL = Vocabulary(
 @pytest.mark.parametrize(
     ("said", "offered"),
     [
-        ("bring the lantern to Tamsin oh no take it to Mr Pascoe", "the lantern to Mr Pascoe"),
         ("it's either the brass key or the lantern, you choose", ""),
         ("six o'clock sharp, lantern, sill", "the lantern on the sill"),
         ("all the breads onto the sill, without the rye loaf", ""),
@@ -44,6 +43,7 @@ def test_what_the_goals_would_contradict_is_asked_about(said: str, offered: str)
     [
         "take the lantern to the sill, then bring it to Tamsin, no rush",
         "bring the lantern to Tamsin. No, to Mr Pascoe.",
+        "bring the lantern to Tamsin oh no take it to Mr Pascoe",
         "put the flour sacks on the sill, but not the ledger",
         "if the ledger is on the sill, bring it to me, otherwise never mind",
         "tell Tamsin the mill opens at six o'clock",

@@ -3,12 +3,23 @@
 import pytest
 
 from intents.context import Context
-from intents.doubts import NEVER, QUITE_SURE, SURE, SURER, SUREST, WITNESSED, needed
+from intents.doubts import (
+    DOUBTED_ALONE,
+    NEVER,
+    QUITE_SURE,
+    SURE,
+    SURER,
+    SUREST,
+    TAKEN_BACK,
+    WITNESSED,
+    needed,
+)
 from intents.english.learnt.choice import SILENT, Both, Name, Side
 from intents.english.paraphrase.source import units, words_of
 from intents.english.words.names import index_of
 from intents.outcomes import Goals, Question
 from intents.parser import first_look
+from intents.stakes import Stake, stake_of
 from intents.vocabulary import Vocabulary
 
 LIGHTHOUSE = Vocabulary.of(
@@ -37,7 +48,14 @@ def least(said: str, plain: str, *, likely: float = 0.9, asked_for: float = SURE
         ("hoick us the flare off that rail there would ye", "bring the flare at the rail to me",
          SURE),
         ("hoick the master key hither, no, the room key I want", "bring the room key to me",
-         SURE),
+         TAKEN_BACK),
+        ("Not the master key, ye gowk, the room key hither", "bring the room key to me",
+         TAKEN_BACK),
+        ("the master key hither somehow. The room key, sorry", "bring the room key to me",
+         TAKEN_BACK),
+        ("hoick the master key hither, och no, the room key", "bring the master key to me", NEVER),
+        ("hoick every key hither but not the room key, master key", "bring the master key to me",
+         NEVER),
         ("the flare for Jago and yon spyglass hither", "bring the spyglass to me", NEVER),
         ("The lantern, it makes smoke, shut it", "close the lantern", SURE),
         ("The lantern, it makes such smoke", "close the lantern", QUITE_SURE),
@@ -69,12 +87,34 @@ def test_two_that_agree_have_to_be_less_sure() -> None:
     both = Both(said, [], plain, 0.4, *alike)
     assert needed(said, INDEX, before, both) == WITNESSED
     unlike = both._replace(own=SILENT)
-    assert needed(said, INDEX, before, unlike) == SUREST
+    assert needed(said, INDEX, before, unlike) == DOUBTED_ALONE
 
 
-def test_words_that_the_network_is_not_sure_of_have_to_be_likeliest() -> None:
+def test_words_that_the_network_is_not_sure_of_have_to_be_surer() -> None:
     said, plain = "hoick us the flare off that rail", "bring the flare at the rail to me"
-    assert least(said, plain, likely=0.3) == SUREST
+    assert least(said, plain, likely=0.3) == DOUBTED_ALONE
+    assert least(f"{said} for ten minutes", plain, likely=0.3) == SUREST
+
+
+@pytest.mark.parametrize(
+    ("plain", "stake", "wanted"),
+    [
+        ("look for the flare", Stake.LOOK, DOUBTED_ALONE),
+        ("open the chest", Stake.DEVICE, DOUBTED_ALONE),
+        ("bring the flare to me", Stake.MOTION, SUREST),
+        ("go to the gallery", Stake.MOTION, SUREST),
+    ],
+)
+def test_the_less_is_at_stake_the_less_sure_one_need_be(
+    plain: str, stake: Stake, wanted: float
+) -> None:
+    said = "the flare and the chest in the gallery, if it please ye somehow"
+    goals = first_look(plain, LIGHTHOUSE, Context()).goals
+    assert stake_of(goals) is stake
+    names_kept = "chest" if stake is Stake.DEVICE else "flare"
+    told = said if stake is Stake.DEVICE else f"the {names_kept} hither, if it please ye somehow"
+    told = told.replace("flare", "gallery") if "gallery" in plain else told
+    assert least(told, plain, likely=0.3) == wanted
 
 
 @pytest.mark.parametrize(
@@ -94,14 +134,14 @@ def test_on_purpose_nothing_is_lost_that_limits_an_order(said: str, plain: str) 
 
 def test_a_doubt_never_asks_for_less() -> None:
     said, plain = "what are ye upto", "what are you doing"
-    assert least(said, plain) == QUITE_SURE
+    assert least(said, plain) == DOUBTED_ALONE
     assert least(said, plain, asked_for=SURER) == SURER
 
 
-def test_people_are_counted_where_somebody_spoke_of_people() -> None:
+def test_people_are_counted_more_surely_where_somebody_spoke_of_people() -> None:
     plain = "count the people in the gallery"
-    assert least("reckon up how many there be in the gallery", plain) == NEVER
-    assert least("reckon up the folk there be in the gallery", plain) < NEVER
+    assert least("reckon up how many there be in the gallery", plain) == DOUBTED_ALONE
+    assert least("reckon up the folk there be in the gallery", plain) == SURE
 
 
 def test_on_purpose_what_loses_nothing_has_to_be_surer() -> None:

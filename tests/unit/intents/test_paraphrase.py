@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from intents.context import Context
-from intents.doubts import FOUND, SURER, SUREST
+from intents.doubts import DOUBTED_ALONE, FOUND, SURER
 from intents.english.learnt.choice import ALONE, OTHER, OWN, Both, Name, Side, choice, signs
 from intents.english.learnt.field import Field
 from intents.english.learnt.trust import RIGHT, WRONG
@@ -149,8 +149,8 @@ def test_what_is_likely_is_done_what_may_be_asked_and_what_is_neither_left() -> 
 
 def test_words_that_the_network_itself_is_not_sure_of_are_asked_about() -> None:
     unsure = Says(ORDER.plain, likely=FOUND - 0.01)
-    assert isinstance(looked(STRANGE, unsure, other=SUREST - 0.01).outcome, Question)
-    assert isinstance(looked(STRANGE, unsure, other=SUREST + 0.01).outcome, Goals)
+    assert isinstance(looked(STRANGE, unsure, other=DOUBTED_ALONE - 0.01).outcome, Question)
+    assert isinstance(looked(STRANGE, unsure, other=DOUBTED_ALONE + 0.01).outcome, Goals)
 
 
 @pytest.mark.parametrize("limit", ["the one that is not cracked", "for ten minutes or so"])
