@@ -22,8 +22,18 @@ from intents.english.trouble import Partly
 from intents.english.words import lexicon
 from intents.english.words.lexer import words_in
 from intents.english.words.names import NameIndex
-from intents.english.words.taking_back import behind_what_takes_back
-from intents.goals import Cancel, Goal, GoTo, ObjectQuery, Pause, Stop, Tell, to_builtins
+from intents.goals import (
+    Cancel,
+    Goal,
+    GoTo,
+    ObjectQuery,
+    Pause,
+    Person,
+    Say,
+    Stop,
+    Tell,
+    to_builtins,
+)
 from intents.outcomes import Goals
 from intents.plain_words import plainly
 from intents.sameness import same
@@ -48,8 +58,11 @@ _PLAIN, _NEARLY, _FREELY = _Bounds(0.25, 0.7), _Bounds(0.42, 0.7), _Bounds(0.55,
 the check had not seen 320 are checked and 81 asked about, of which 50 were not meant."""
 _HARMLESS = (Stop, Pause, Cancel)
 _TAKEN_BACK = lexicon.words("no nope instead rather")
-"""With these, too, the grammar knows what takes whose place, and the network seldom."""
+"""With these the grammar knows what takes whose place, and the network seldom."""
 _QUOTED = re.compile(r"[\"“”]|(?<!\w)'\w[^']*'(?!\w)")
+_FEWEST_TOLD, _LONGEST_FRAME, _TAIL = 3, 9, 3
+"""So few words of a message, so many beside it, and fewer behind it ("..., pet") leave no doubt
+what was to be said."""
 _QUOTES, _YOU = "“”", lexicon.words("you your yours yourself 're 've are have do were don't")
 
 
@@ -126,7 +139,7 @@ def to_check(
     harmless = all(isinstance(goal, _HARMLESS) for goal in before.goals)
     if not isinstance(before.outcome, Goals) or harmless or not _is_weighable(text):
         return None
-    if is_unfamiliar(before.goals):
+    if is_unfamiliar(before.goals) or _only_repeats(text, before.goals):
         return None
     names, own = names_in(text, index), side_of(before, "whole", sight(text, index))
     by_itself = alone(text, names, own, fields)
@@ -148,7 +161,28 @@ def _is_weighable(text: str) -> bool:
     """Whether the network can tell anything of a sentence."""
     if len(text.split()) > LONGEST or is_plain(text) or _QUOTED.search(text):
         return False
-    return _TAKEN_BACK.isdisjoint(words_in(text)) and behind_what_takes_back(text) is None
+    return _TAKEN_BACK.isdisjoint(words_in(text))
+
+
+def _only_repeats(text: str, goals: tuple[Goal, ...]) -> bool:
+    """Whether all is to repeat to somebody the last words of a sentence, where nothing is lost.
+
+    Of words that are only repeated the network has nothing to tell.
+    """
+    match goals:
+        case (Say(what=str(what), to=Person(name=str())),):
+            said, told = words_in(text), words_in(what)
+            size = len(told)
+            last = (said[len(said) - size - n : len(said) - n] for n in range(_TAIL))
+            same = any(len(one) == size and _differ(one, told) <= size // 2 for one in last)
+            return size >= _FEWEST_TOLD and len(said) - size <= _LONGEST_FRAME and same
+        case _:
+            return False
+
+
+def _differ(one: list[str], other: list[str]) -> int:
+    """In how many places words differ, as "he is" and "you are" do."""
+    return sum(a != b for a, b in zip(one, other, strict=True))
 
 
 def _told_there(goals: tuple[Goal, ...]) -> tuple[Goal, ...]:

@@ -58,6 +58,8 @@ def _is_broken_off(text: Text, at: int) -> bool:
     return denied or not _SPEAKING.isdisjoint(begun)
 
 
+_TOLD = {"him": "male", "her": "female"}
+"""Tell *him* she is late: who is told is not she."""
 _SPEAKING = {"say", "tell", "answer", "inform"}
 
 
@@ -310,7 +312,9 @@ def _words_for(text: Text, at: int, end: int, to: Person | None) -> str:
 
     before = (text.name_at(n) for n in range(at))
     spoken_of = {name for match in before if match and (name := match.of("person"))}
-    return as_said(what, to.gender, names, others=bool(spoken_of - {to.name}))
+    told = text.words[max(0, at - 2) : at]
+    gender = next((one for word, one in _TOLD.items() if word in told), None)
+    return as_said(what, to.gender or gender, names, others=bool(spoken_of - {to.name}))
 
 
 def answer(text: Text, at: int, scope: Scope) -> Found:

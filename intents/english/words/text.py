@@ -32,6 +32,7 @@ from intents.english.words.lexicon import (
 )
 from intents.english.words.manners import Manner, manners
 from intents.english.words.measures import NUMBER_WORDS
+from intents.english.words.message_frames import with_plain_frames
 from intents.english.words.names import Match, NameIndex, index_of
 from intents.english.words.nearing import nearest_first
 from intents.english.words.notes import in_sentences
@@ -133,6 +134,7 @@ class Text:
         speller = speller_of(vocabulary)
         corrected: list[Token] = []
         tokens = interruptions(_without_name(tokenize(text), self.index), self.index)
+        tokens = with_plain_frames(tokens, self.index)
         tokens, self.corrections = spelled_out(listed_superlatives(tokens), self.index)
         tokens = without_particles(second_thoughts(tokens), self.index)
         tokens = in_sentences(tokens, self.index)
