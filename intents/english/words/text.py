@@ -7,6 +7,7 @@ from itertools import pairwise
 from typing import TypeVar
 
 from intents.english.words.all_over import all_over
+from intents.english.words.amounts_behind import counted_first
 from intents.english.words.appositions import without_appositions
 from intents.english.words.asked_conditions import checked_states, conditional_questions
 from intents.english.words.asking import plainly_asked
@@ -41,6 +42,7 @@ from intents.english.words.pauses import pauses_as_waits
 from intents.english.words.precise import plain_quantities
 from intents.english.words.presence import being_there
 from intents.english.words.purposes import without_purposes
+from intents.english.words.question_frames import plainly_put
 from intents.english.words.repairs import as_one_marker, repaired
 from intents.english.words.second_thoughts import second_thoughts
 from intents.english.words.singling_out import singled_out
@@ -135,6 +137,7 @@ class Text:
         corrected: list[Token] = []
         tokens = interruptions(_without_name(tokenize(text), self.index), self.index)
         tokens = with_plain_frames(tokens, self.index)
+        tokens = counted_first(plainly_put(tokens, self.index), self.index)
         tokens, self.corrections = spelled_out(listed_superlatives(tokens), self.index)
         tokens = without_particles(second_thoughts(tokens), self.index)
         tokens = in_sentences(tokens, self.index)
