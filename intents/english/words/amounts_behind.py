@@ -13,7 +13,7 @@ _PIECES = lexicon.unlisted("piece pieces pcs pc nos numbers")
 _LOTS = (
     ("the", "whole", "lot", "of", "them"), ("the", "lot", "of", "them"), ("the", "whole", "lot"),
     ("the", "lot"), ("the", "whole", "bunch"), ("every", "last", "one"),
-    ("each", "and", "every", "one"), ("every", "single", "one"), ("all", "of", "them"),
+    ("each", "and", "every", "one"), ("every", "single", "one"),
 )  # fmt: skip
 _HANDLES = lexicon.unlisted("put take bring carry give send fetch move place keep")
 _SIGNS = (COMMA, FULL_STOP)
@@ -72,6 +72,8 @@ def _all_of_it(tokens: list[Token], words: list[str], at: int, end: int) -> list
             continue
         stop += words[stop : stop + 1] == [COMMA]
         first = at - (at > 0 and words[at - 1] in lexicon.DETERMINERS)
+        if words[max(0, first - 1) : first] == ["and"]:
+            return None  # the cap and the torch, the lot: of both
         return [
             *tokens[:first], Token("all", "all"), Token("the", "the"), *tokens[at:end],
             *tokens[stop:],

@@ -32,7 +32,7 @@ _NEWS = _phrases(
 )
 _PASSES = lexicon.unlisted("pass relay convey get give send take carry deliver bring")
 _PASSED = _phrases(
-    "this,it,that,the message,a message,this message,my message,word,the word,a word,the news"
+    "this,the message,a message,this message,my message,word,the word,a word,the news"
 )
 _WANTS_TELLING = _phrases(
     "wants telling,needs telling,want telling,need telling,wants to be told,needs to be told,"
@@ -58,16 +58,17 @@ _TAILS = _phrases(
     "quick,quickly,be quick,quick now,now,noo,right now,asap,pronto,sharpish,chop chop,hurry,pet,"
     "love,pal,mate,hen,duck,dear,darling,bless,bless him,bless her,ta,cheers,thanks,thank you,"
     "go on,there we are,there is a love,there is a dear,there is a good lad,off you go,"
-    "would you,will you,could you,please"
+    "would you,will you,could you"
 )
 """What closes the asking, not the message."""
 _STARTS = lexicon.unlisted("and then please you to could would can will just robot kindly do so")
 _MOST_BESIDE = 3
+_COLON = ":"
 
 
 def with_plain_frames(tokens: list[Token], index: NameIndex) -> list[Token]:
     """The tokens with "tell Ada that" for the frame of a message, and without its tail."""
-    words = [token.text for token in tokens]
+    words = [_COLON if token.raw == _COLON else token.text for token in tokens]
     for at in range(len(words)):
         starts = at == 0 or words[at - 1] in (COMMA, FULL_STOP) or words[at - 1] in _STARTS
         found = _frame(words, at, index) if starts else None
@@ -131,7 +132,8 @@ def _mentioned(words: list[str], at: int, index: NameIndex) -> Found:
 def _warned(words: list[str], at: int, index: NameIndex) -> Found:
     """Warn *Ada* the floor is wet."""
     name = _named(words, at + 1, index) if words[at] in _WARNS else None
-    if name is None or words[name[1] : name[1] + 1] in (["of"], ["about"], [COMMA], [FULL_STOP]):
+    behind = words[name[1]] if name and name[1] < len(words) else FULL_STOP
+    if name is None or behind in ("of", "about", COMMA, FULL_STOP, _COLON):
         return None
     return _linked(words, name)
 
@@ -171,25 +173,26 @@ def _linked(
     needs: bool = False,
     sign: bool = False,
 ) -> Found:
-    """Past an aside and "that", to the message; a sign alone may announce it, too.
+    """Past an aside and "that", to the message; a colon alone may announce it, too.
 
     Args:
         words: The sentence.
         name: Who is told; None if nobody is named.
         at: Where it goes on; by default behind the name.
         needs: Whether something has to announce the message.
-        sign: Whether a comma or a colon does.
+        sign: Whether a colon does.
     """
     if name is None:
         return None
     begin = name[1] if at is None else at
-    apart = begin + (words[begin : begin + 1] == [COMMA])
+    apart = begin + (words[begin : begin + 1] in ([COMMA], [_COLON]))
     aside = _phrase_end(words, apart, _ASIDES)
     if aside is not None:
         begin = aside
-    comma = words[begin : begin + 1] in ([COMMA], [FULL_STOP])
+    colon = words[begin : begin + 1] == [_COLON]
+    comma = colon or words[begin : begin + 1] in ([COMMA], [FULL_STOP])
     that = words[begin + comma : begin + comma + 1] == ["that"]
-    if needs and not that and not (comma and sign):
+    if needs and not that and not (colon and sign):
         return None
     return name, begin + comma + that if (comma or that) else begin
 

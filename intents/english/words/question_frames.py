@@ -9,7 +9,7 @@ left as it was said.
 
 from intents.english.words import lexicon
 from intents.english.words.lexer import COMMA, FULL_STOP, Token
-from intents.english.words.names import Match, NameIndex
+from intents.english.words.names import Kind, Match, NameIndex
 
 _LITTLE = lexicon.unlisted(
     "the a an my ma me your our his her their that this yon them those is are 's was were be am "
@@ -48,14 +48,15 @@ def plainly_put(tokens: list[Token], index: NameIndex) -> list[Token]:
     ends = next((n for n, word in enumerate(words) if word in (COMMA, FULL_STOP)), len(words))
     if not any(token.text == FULL_STOP and "?" in token.raw for token in tokens[: ends + 1]):
         return tokens
-    for read in (_where, _held, _anybody, _waiting, _lying):
+    alone = ends >= len(words) - 1  # "anybody at the till? go there" is a condition
+    for read in (_where, _held, *((_anybody, _waiting, _lying) if alone else ())):
         plain = read(tokens[:ends], words[:ends], index)
         if plain is not None:
             return [*plain, *tokens[ends:]]
     return tokens
 
 
-def _name_among(words: list[str], index: NameIndex, *sorts: str) -> tuple[int, Match] | None:
+def _name_among(words: list[str], index: NameIndex, *sorts: Kind) -> tuple[int, Match] | None:
     """The only name of a sentence, and where it begins; None if there are several or none."""
     found: list[tuple[int, Match]] = []
     at = 0
