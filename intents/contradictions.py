@@ -3,8 +3,8 @@
 The law of faithfulness looks at words that come back in no goal. These all come back, or were
 passed over with good reason, and still the goals are not what was said: what was taken back is done
 as well as what was said instead ("to Ada no to Leo"), one of two is done where either was asked
-for, something is done at once that was to be done at an hour, what was to be done otherwise is
-lost, and so is an exception. It is asked about.
+for, what was to be done otherwise is lost, and so is an exception. It is asked about. What is done
+at once that was to be done at an hour is looked for in :mod:`intents.occasions`.
 """
 
 import re
@@ -58,12 +58,6 @@ _NOTHING = re.compile(
 )
 """What is to be done otherwise, if that is nothing."""
 _EITHER = re.compile(r"\beither\b[^.!?]*\bor\b")
-_HOUR = re.compile(
-    r"(?:^|[,.;:!?]\s*|\b(?:and|please|robot|at|by|for)\s+)(?:at |by |for )?"
-    r"(?:every (?:morning|evening|night|day|week|hour)|\w+ o'?clock|"
-    r"(?:half past|quarter (?:past|to)) \w+|(?:at|by) \w+ (?:tomorrow|tonight|sharp|am|pm))\b"
-)
-"""When something is to be done, at the beginning of a clause or behind "at"."""
 _WITHOUT = re.compile(
     r"\b(?:without|except|excepting|save|bar|but not|minus)\s+(?:for\s+)?"
     r"(?:(?:the|that|my|your|his|her|our|this)\s+)?"
@@ -99,9 +93,8 @@ def contradiction(text: str, goals: tuple[Goal, ...], index: NameIndex) -> Contr
             if told is not None:
                 return told
         either = _EITHER.search(plain) if len(goals) == 1 else None
-        found = either or _HOUR.search(plain)
-        if found:
-            return Contradiction(found.group().strip(" ,.;:!?"), goals)
+        if either:
+            return Contradiction(either.group().strip(" ,.;:!?"), goals)
     lost = next(chain(_lost_otherwise(plain, every), _lost_exception(plain, every, index)), "")
     return Contradiction(lost, goals) if lost else None
 

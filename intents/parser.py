@@ -13,7 +13,6 @@ from msgspec.structs import replace
 from intents.bounds import loosened, tells, unkept
 from intents.caution import cautious
 from intents.context import Context, answered, completed
-from intents.contradictions import contradiction
 from intents.english.clauses.telling import only_tells
 from intents.english.phrases.referents import Scope
 from intents.english.substitution import substitute
@@ -27,7 +26,7 @@ from intents.english.trouble import (
     Unread,
 )
 from intents.english.words import lexicon
-from intents.english.words.names import NameIndex, index_of
+from intents.english.words.names import index_of
 from intents.english.words.spoken_signs import with_signs
 from intents.english.words.text import Text
 from intents.goals import LookAt, Stop, Wait
@@ -39,6 +38,7 @@ from intents.grounding import (
 )
 from intents.halting import is_insistent
 from intents.languages import language_of, only_english
+from intents.last_look import last_look
 from intents.outcomes import Choice, Goals, Outcome, Question, Refusal
 from intents.prohibitions import broken
 from intents.second_look import Attempt, just_that, remarked, second_look
@@ -186,7 +186,7 @@ def _read(text: str, vocabulary: Vocabulary, context: Context) -> tuple[Outcome,
         outcome, after = _within_bounds(text, vocabulary, context, last)
     careful = _as_cried(text, last, outcome)
     careful = cautious(text, _said(text, outcome, heard), careful, vocabulary)
-    careful = _uncontradicted(text, careful, index)
+    careful = last_look(text, careful, index)
     return (careful, context if isinstance(careful, Refusal) else after)
 
 
@@ -203,14 +203,6 @@ def _as_cried(text: str, attempt: Attempt, outcome: Outcome) -> Outcome:
         idle = isinstance(outcome, Refusal) and not forbids
     cried = idle and is_insistent(text)
     return Goals(goals=(Stop(),), parser="stop") if cried else outcome
-
-
-def _uncontradicted(text: str, outcome: Outcome, index: NameIndex) -> Outcome:
-    """An outcome, as a question where what was said contradicts its goals."""
-    found = contradiction(text, outcome.goals, index) if isinstance(outcome, Goals) else None
-    if found is None:
-        return outcome
-    return just_that(text, Unpromised(f"I heard “{found.said}” and may get it wrong", found.goals))
 
 
 def _said(text: str, outcome: Outcome, heard: dict[str, Attempt]) -> str:

@@ -15,12 +15,27 @@ from intents.english.words.lexer import words_in
 from intents.english.words.reporting import is_reported
 from intents.english.words.requests import ASKS_IN_QUESTIONS, ASKS_IN_STATEMENTS
 from intents.english.words.verbs import base_form, verbs_at
-from intents.goals import Answer, Count, Find, Goal, LookAt, Report, Tell, each
+from intents.goals import Answer, Ask, Count, Find, Goal, LookAt, Report, Say, Stop, Tell, each
 
 LOOKING = (Find, Count, Tell, Report, Answer, LookAt)
 """What answers a question."""
 _CLAUSES = re.compile(r"[,.;:!?…—–]+|\b(?:so|and|then|but)\b")
 _WONDERS = lexicon.words("how why when who")
+_ONLY_SAID = re.compile(
+    r"(?:(?:and|but|so|well|oh|hm+|maybe|then|i think|i guess|i suppose)\W+)*(?:"
+    r"(?:perhaps|maybe|i wonder (?:if|whether)|wouldn't|don't you think|do you think|i'd say|"
+    r"i bet) [^,.;:!?]* (?:would|might|could|wouldn't)? ?(?:look|looks|be|go|fit|suit) (?:\w+ )?"
+    r"(?:better|nicer|nice|good|lovely|prettier|well|best)\b[^.!?]*"
+    r"|[^,.;:!?]* (?:would|might|could) (?:look|go|fit|suit) (?:\w+ )?(?:better|nicer|nice|good|"
+    r"lovely|prettier|well|best)\b[^.!?]*"
+    r"|you (?:should|could|might|ought to)(?:n't| not)? have (?!the|a|an|some|my|this|that|it|one|"
+    r"any|your|his|her|to|another|more)\w+[^,.;:!?]*"
+    r"|(?:shall|must|do) i (?!have (?:a|the|some|my)|get (?:a|the|some|my)|ask|trouble)"
+    r"[^,.;:!?]*\?"
+    r"|(?:that's |that is )?enough (?!of)\w+ for [^,.;:!?]*"
+    r")[.!?]*"
+)
+"""What asks for nothing from the first word to the last."""
 _NO_ORDER = {"begins=article", "begins=name", "begins=about"}
 """How a sentence begins that has no form of an order."""
 
@@ -67,6 +82,17 @@ def only_asks(text: str, goals: Sequence[Goal]) -> bool:
     words = words_in(text)
     asks = text.rstrip(" \"'”)").endswith("?") and ASKS_IN_QUESTIONS.isdisjoint(words)
     return asks and not all(isinstance(goal, LOOKING) for goal in each(goals))
+
+
+def only_told(text: str, goals: Sequence[Goal]) -> bool:
+    """Whether what was only said, wondered or asked about oneself was taken for an order.
+
+    "Perhaps it would look better there", "you should have put it there", "shall I close it?", "then
+    he goes: bring me the cup", "enough tea for Leo".
+    """
+    looks = all(isinstance(goal, (*LOOKING, Stop, Say, Ask)) for goal in each(goals))
+    plain = " ".join(text.lower().replace("’", "'").split())
+    return not looks and (bool(_ONLY_SAID.fullmatch(plain)) or is_reported(text))
 
 
 def _wonders(text: str, goals: Sequence[Goal]) -> bool:

@@ -28,6 +28,7 @@ from intents.goals import (
     Pick,
     Place,
     Say,
+    Switch,
     Wait,
     each,
 )
@@ -59,7 +60,7 @@ def unkept(text: Text, goals: Sequence[Goal]) -> tuple[str, str]:
     for kind, said in text.manners:
         if kind == "endless" and acts and not isinstance(acts[-1], Wait | Follow):
             return f"I cannot go on without an end, “{said}”", ""
-        if kind == "later" and acts:
+        if kind == "later" and (acts or any(isinstance(goal, Switch) for goal in each(goals))):
             return f"I begin at once, and cannot do it “{said.lower()}”", ""
     kept_up = _kept_up(text)
     if kept_up and not all(map(_has_end, acts)):

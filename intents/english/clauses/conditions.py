@@ -64,7 +64,7 @@ _THEREON = phrases("on it,on them,in it,in them,there,on top,on top of it,inside
 _BACK = ("back", "to", "for")
 _GONE = ("missing", "gone", "absent", "away")
 _IN_HAND = phrases("in your hand,in your hands,in the hand,in your gripper,in hand,with you")
-_STATES = ("open", "closed", "on", "off", "empty", "full")
+_STATES = ("open", "closed", "shut", "on", "off", "empty", "full")
 _BEING = words(
     "standing sitting lying hanging left switched turned set still wide half currently always "
     "plugged kept just"
@@ -406,7 +406,8 @@ def _predicate(
         if phrase.noun == "pronoun":
             what = scope.device or (scope.object and scope.object.name) or scope.place or "it"
         scope.device = what
-        return State(what=what, state=word, negated=negated), at + 1
+        state = "closed" if word == "shut" else word
+        return State(what=what, state=state, negated=negated), at + 1
     phrase.end = at
     read_postmodifiers(text, phrase)
     if phrase.end == at:

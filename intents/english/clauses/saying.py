@@ -41,6 +41,9 @@ from intents.goals import Answer, Count, Find, Goal, Person, Say, Tell
 _ABOUT = lexicon.phrases(
     "about,of,know,know about,as to,regarding,that,on,to know,with,out,me with"
 )
+_WONDERED = lexicon.WH | lexicon.words("if whether about")
+_KNOWS = lexicon.phrases("know,in on")
+"""Let Ada *know*, let her *in on it*: the rest is hers to do."""
 _SEVERAL = 2
 _LETTERS = lexicon.words(
     "message messages mail mails email emails letter phone phones telephone telephones call calls "
@@ -179,8 +182,22 @@ def tell(text: Text, at: int, scope: Scope) -> Found:
     return [goal for goals, _ in told for goal in goals], told[0][1]
 
 
+def _refuse_no_message(text: Text, at: int, scope: Scope) -> None:
+    """Refuse "I wonder *if you could wrap it*", and "let Ada *sleep*".
+
+    Raises:
+        Misfit: It is that.
+    """
+    if text.words[at - 2 : at] == ["i", "wonder"] and text.word(at) not in _WONDERED:
+        raise Misfit("that is to tell nothing")
+    allowed = listener_at(text, at, scope) if text.word(at - 1) == "let" else None
+    if allowed is not None and not text.phrase_end(_KNOWS, allowed.end):
+        raise Misfit("that is to let somebody do something")
+
+
 def _tell(text: Text, at: int, listener: Person | None, scope: Scope) -> Found:
     """Tell me how many cups there are; tell Julia a joke; inform them of the time."""
+    _refuse_no_message(text, at, scope)
     to = listener
     at += text.word(at) == "back" and text.word(at - 1) in ("report", "get")
     if text.word(at) in TO and text.word(at) != "for":

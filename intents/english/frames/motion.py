@@ -9,6 +9,7 @@ from intents.english.phrases.complements import Clause, Complement
 from intents.english.phrases.phrase import SAID_HOW, NounPhrase
 from intents.english.phrases.referents import Scope, is_person, to_object, to_person, to_place
 from intents.english.trouble import Misfit, NotUnderstood, Offered, Partly, Unclear
+from intents.english.words import lexicon
 from intents.english.words.measures import STEP_M
 from intents.goals import (
     OPERATOR,
@@ -27,6 +28,10 @@ from intents.goals import (
 _FULL_TURN = 2 * pi
 _SEARCHED = ("scan", "check", "comb through", "scanning", "checking")
 """Verbs with which it is the place that is named first: scan the shelf for the cup."""
+_HOMES = lexicon.words(
+    "house building apartment flat home premises place room party area site shop office hotel "
+    "store station restaurant hospital school arena scene vicinity here"
+)
 _BESIDES: tuple[How, ...] = ("behind", "under", "above", "left", "right")
 """Where a robot that walks to a place does not come to stand."""
 _HIDES: tuple[How, ...] = ("behind", "under", "left", "right")
@@ -233,7 +238,8 @@ def leave(clause: Clause, scope: Scope) -> list[Goal]:
     slots.done()
     if target and target.phrase.noun == "operator" and {"alone", "be"} & set(words):
         raise NotUnderstood("All right, I leave you alone")
-    if target and target.phrase.noun == "pronoun":
+    noun = target.phrase.noun if target else ""
+    if noun == "pronoun" or (noun == "unknown" and target and not _is_home(target.phrase)):
         raise Misfit("that is to put something down")
     if exit_to:
         return [GoTo(place=to_place(exit_to.phrase, scope))]
@@ -250,6 +256,11 @@ def leave(clause: Clause, scope: Scope) -> list[Goal]:
     if clause.verb == "exit" and len(clause.text) == 1:
         raise Offered("“Exit”", (out,))  # who types it may want to leave the programme
     return [out]
+
+
+def _is_home(phrase: NounPhrase) -> bool:
+    """Whether it is a building as a whole, or where one is: not *the iron*, which nobody knows."""
+    return phrase.said.split()[-1] in _HOMES
 
 
 def turn(clause: Clause, scope: Scope) -> list[Goal]:

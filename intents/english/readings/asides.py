@@ -78,6 +78,8 @@ _LEAVES_OUT = lexicon.phrases(
     "skip,skip over,leave out,omit,drop,ignore,jump over,pass over,do not do,forget,forget about,"
     "miss out,cut,cut out,go to,go on to,jump to,skip to,move on to,go back to"
 )
+_RELATIVE = lexicon.words("that which who whom whose")
+"""Straight behind a thing or somebody these begin what tells which is meant."""
 _WHICH = lexicon.words("this that the next last first current second third other rest whole one")
 _STEPS = lexicon.words("step steps part parts bit stage item move action point")
 
@@ -87,13 +89,19 @@ def told(sentence: Sentence, at: int) -> Found | None:
     end = told_end(sentence.text, at) or _cited(sentence.text, at)
     if sentence.text.word(at) == "before" and tells_when(sentence.text, at):
         end = _clause_end(sentence.text, at, links=False)  # now is before then
-    if end is None or end == at or _is_wish(sentence.text, at):
+    if end is None or end == at or _is_wish(sentence.text, at) or _is_relative(sentence.text, at):
         return None
     if sentence.text.word(at) == QUOTE:
         _mention_cited(sentence, at)
     sentence.scope.unknown = _unknown_thing(sentence.text, at, end)
     _mention(sentence, at, end, described=True)
     return [], end
+
+
+def _is_relative(text: Text, at: int) -> bool:
+    """A cup *that is not chipped*; somebody *who is not Ada*: which one, and no remark."""
+    before = text.word(at - 1) if at else COMMA
+    return text.word(at) in _RELATIVE and before[0].isalpha() and is_content(text, at - 1)
 
 
 def _is_wish(text: Text, at: int) -> bool:

@@ -7,6 +7,8 @@ says it for that case only. A question with a verb of its own ("is there an egg?
 question word is one.
 """
 
+from typing import NamedTuple
+
 from intents.english.words.lexer import COMMA, FULL_STOP, Token
 from intents.english.words.lexicon import AUXILIARIES, DETERMINERS, LOCATIVES, WH, words
 from intents.english.words.names import NameIndex
@@ -22,31 +24,61 @@ _REST = words("left remaining there around")
 _CHECKS = words("see check look find")
 _STATES = words("open closed shut on off empty full running locked")
 _SO = words("so it they that is are the case then yes")
+_NOT_SO = words("not no")
+_FEWEST = 4
+"""So many words a question has at least: "is the gate open?"."""
 
 
 def checked_states(tokens: list[Token]) -> list[Token]:
-    """See whether the gate is open, and if so, close it: *if the gate is open*, close it."""
+    """See whether the gate is open, and if so, close it: *if the gate is open*, close it.
+
+    Also "is it shut? If not, shut it": *if it is not shut*, shut it.
+    """
     said = [token.text for token in tokens]
+    asked = _asked_state(tokens, said)
+    again = [n for n, word in enumerate(said) if word == "if" and asked and n > asked.begun + 1]
+    if asked is None or not again:
+        return tokens
+    signs = {"and", COMMA, FULL_STOP}
+    close = next(n for n in range(asked.begun + 1, again[0] + 1) if said[n] in signs | {"if"})
+    state = said[close - 1]
+    taken_up = again[0] + 1
+    while taken_up < len(said) and said[taken_up] in _SO | _NOT_SO:
+        taken_up += 1
+    after = said[taken_up + 1 : taken_up + 2]
+    again_said = said[taken_up : taken_up + 1] == [state]
+    taken_up += again_said and (not after or after[0] == COMMA or after[0] in FIRST_WORDS)
+    begin = close
+    while said[begin] in signs or (said[begin] in _OPENS and begin < again[0]):
+        begin += 1
+    order = [*tokens[begin : again[0]]] or tokens[taken_up + (said[taken_up:][:1] == [COMMA]) :]
+    ends = begin == again[0] or not (set(said[taken_up:]) - signs)
+    ordered = bool(order) and order[0].text in FIRST_WORDS
+    if state not in _STATES or taken_up == again[0] + 1 or not (ends and ordered):
+        return tokens
+    negated = not _NOT_SO.isdisjoint(said[again[0] : taken_up])
+    link = [Token("not", ""), tokens[close - 1], Token(COMMA, ",")]
+    subject = [*asked.subject, *tokens[asked.begun : close - 1]]
+    return [*tokens[: asked.at], Token("if", ""), *subject, *link[not negated :], *order]
+
+
+class _Asked(NamedTuple):
+    """What is asked: from ``at`` on, its words from ``begun`` on, with "is" where it belongs."""
+
+    at: int
+    begun: int
+    subject: list[Token]
+
+
+def _asked_state(tokens: list[Token], said: list[str]) -> _Asked | None:
     at = next((n for n, word in enumerate(said[:-6]) if word in _CHECKS), None)
     begun = None if at is None else _asked_begin(said, at)
-    again = [n for n, word in enumerate(said) if word == "if" and begun and n > begun + 2]
-    if at is None or begun is None or not again:
-        return tokens
-    close = again[0]
-    while said[close - 1] in {"and", COMMA, FULL_STOP}:
-        close -= 1
-    taken_up = again[0] + 1
-    while taken_up < len(said) and said[taken_up] in _SO:
-        taken_up += 1
-    state = said[close - 1]
-    taken_up += said[taken_up : taken_up + 1] == [state]
-    alone = {"and", COMMA, FULL_STOP, "if"}.isdisjoint(said[begun:close])
-    order = taken_up + (said[taken_up : taken_up + 1] == [COMMA])
-    ordered = order < len(said) and said[order] in FIRST_WORDS
-    if state not in _STATES or not alone or taken_up == again[0] + 1 or not ordered:
-        return tokens
-    link = Token(COMMA, ",")
-    return [*tokens[:at], Token("if", ""), *tokens[begun:close], link, *tokens[order:]]
+    if at is not None and begun is not None:
+        return _Asked(at, begun, [])
+    close = said.index(FULL_STOP) if FULL_STOP in said else 0
+    if said[:1] not in (["is"], ["are"]) or close < _FEWEST or "?" not in tokens[close].raw:
+        return None
+    return _Asked(0, close - 1, [*tokens[1 : close - 1], tokens[0]])
 
 
 def _asked_begin(said: list[str], at: int) -> int | None:

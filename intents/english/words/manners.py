@@ -10,6 +10,7 @@ from typing import Literal, NamedTuple
 
 from intents.english.words.lexer import COMMA, FULL_STOP, Token
 from intents.english.words.lexicon import phrases, words
+from intents.english.words.occasions import is_of_order
 
 Kind = Literal["together", "endless", "later"]
 _PHRASES: dict[Kind, frozenset[tuple[str, ...]]] = {
@@ -61,6 +62,9 @@ def manners(tokens: Sequence[Token]) -> tuple[list[Token], list[Manner]]:
             kept.append(tokens[at])
             at += 1
             continue
+        if kind == "later" and not _is_of_order(texts, at, end):
+            at = end
+            continue
         found.append(Manner(kind, " ".join(token.raw for token in tokens[at:end] if token.raw)))
         if end < len(texts) and texts[end] == COMMA and (not kept or kept[-1].text == COMMA):
             end += 1
@@ -68,6 +72,18 @@ def manners(tokens: Sequence[Token]) -> tuple[list[Token], list[Manner]]:
     while kept and found and kept[-1].text in (COMMA, FULL_STOP):
         kept.pop()
     return (kept, found) if kept else (list(tokens), [])
+
+
+def _is_of_order(texts: list[str], at: int, end: int) -> bool:
+    """Whether what is said of when stands in an order: not in "he comes *tomorrow*"."""
+    signs = (COMMA, FULL_STOP, "so", "because", "but")
+    begin = next((n + 1 for n in range(at - 1, -1, -1) if texts[n] in signs), 0)
+    stop = next((n for n in range(end, len(texts)) if texts[n] in signs), len(texts))
+    before = " ".join(texts[begin:at])
+    occasion = " ".join(texts[at:end])
+    clause = " ".join(filter(None, (before, occasion, *texts[end:stop])))
+    start = len(before) + bool(before)
+    return is_of_order(clause, (start, start + len(occasion)))
 
 
 def _manner_at(texts: list[str], at: int) -> tuple[Kind | None, int]:

@@ -11,6 +11,7 @@ from intents.english.words.amounts_behind import counted_first
 from intents.english.words.appositions import without_appositions
 from intents.english.words.asked_conditions import checked_states, conditional_questions
 from intents.english.words.asking import plainly_asked
+from intents.english.words.causing import caused
 from intents.english.words.colloquial import colloquial
 from intents.english.words.contrasts import but_this
 from intents.english.words.courtesy import ADDRESSES, courtesy_end
@@ -176,7 +177,7 @@ class Text:
             unrepeated(being_there(conditional_questions(checked_states(plain), self.index)))
         )
         plain = colloquial(in_standard_words(plain, self.index))
-        plain = nearest_first(handed_round(plain, self.index), self.index)
+        plain = nearest_first(handed_round(caused(plain, self.index), self.index), self.index)
         plain, self.all_over = all_over(plain, self.index, lambda said: _in_message(said, index))
         self.tokens: list[Token] = uninverted(left_behind(plain))
         self.words: list[str] = [t.text for t in self.tokens]
