@@ -13,6 +13,7 @@ from intents.english.words import lexicon
 from intents.english.words.measures import STEP_M
 from intents.goals import (
     OPERATOR,
+    Bring,
     Displacement,
     Find,
     Goal,
@@ -144,7 +145,10 @@ def _must_have_side(clause: Clause, direction: str | None) -> None:
 
 
 def _carried(slots: Slots, target: Complement | None) -> list[Goal]:
-    """Come to the door *with the cup*; come to the door *with it*."""
+    """Come to the door *with the cup*; take the cup and go to the door *with it*.
+
+    What has just been taken stays in the hand: nobody said to put it down there.
+    """
     scope, carried = slots.scope, slots.peek("with")
     if carried is None or target is None or target.role not in ("to", "into"):
         return []
@@ -156,6 +160,11 @@ def _carried(slots: Slots, target: Complement | None) -> list[Goal]:
     source = slots.source()
     slots.done()
     query = replace(query, at=query.at or source)
+    in_hand = it and any(one.name == query.name for one in scope.group)
+    if it and is_person(target.phrase, scope):
+        return [Bring(object=query, to=to_person(target.phrase, scope))]
+    if in_hand:
+        return [_towards(slots.clause, scope, target.phrase)]
     return [Place(object=query, on=to_place(target.phrase, scope))]
 
 

@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple
 from rapidfuzz import fuzz, process
 
 from intents.english.words.lexer import singular, tokenize
-from intents.english.words.lexicon import COLORS, SIZES
+from intents.english.words.lexicon import COLORS, SIZES, words
 from intents.english.words.measures import number
 from intents.english.words.synonyms import AKIN, SHORT_WORDS, SYNONYMS
 from intents.vocabulary import Someone, Spot, Thing, Vocabulary
@@ -62,6 +62,8 @@ _INITIALS = 2
 """A name of more words is also called by the initials of all but its last."""
 _BEGINNING = 32
 """So many letters tell what no name begins with; names of strangers may have thousands."""
+_MANY_SENSES = words("counter paper bin glasses remote hall mobile study")
+"""Words for other things that what is called so may be as well."""
 _PART = 2
 """A part that is no longer than this, "of" or "a", tells nothing."""
 
@@ -101,10 +103,11 @@ class NameIndex:
         spellings = _spellings(vocabulary)
         taken = {_key(_split(s)) for _, s in spellings if _split(s)}
         aliases = [(n, s) for n, s in _aliases(vocabulary) if _key(_split(s)) not in taken]
-        for name, spelling in spellings + aliases:
-            self._add(name, spelling)
         for name, spelling in spellings:
+            self._add(name, spelling)
             self._add_parts(name, _split(spelling))
+        for name, spelling in aliases:
+            self._add_alias(name, spelling)
         # What no longer name begins with needs no looking for one: most words of a sentence.
         starts = {key[:_BEGINNING] for key in self._names}
         self._begins = {start[:end] for start in starts for end in range(1, len(start) + 1)}
@@ -131,6 +134,22 @@ class NameIndex:
             self._names[key] = (*known, name)
         self._longest = max(self._longest, len(words) + 1)
         self.words |= {*words, singular(words[-1])}
+
+    def _add_alias(self, name: Name, spelling: str) -> None:
+        """Add another word for a name; where others end with it, any of them may be meant.
+
+        Of a worktop and a shop counter "the counter" may be either; "the couch" is the sofa, though
+        there is a television couch as well.
+        """
+        word = singular(spelling)
+        if word not in _MANY_SENSES:
+            self._add(name, spelling)
+            return
+        others = [other for other in self._parts.get(word, ()) if other.kind == name.kind]
+        if any(singular(_split(other.name)[-1]) == word for other in others if other != name):
+            self._parts[word] = (*self._parts[word], name)
+        else:
+            self._add(name, spelling)
 
     def _add_parts(self, name: Name, words: list[str]) -> None:
         parts = {singular(words[0]), singular(words[-1])} if len(words) > 1 else set[str]()
