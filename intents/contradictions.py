@@ -14,8 +14,10 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
+from intents.english.faithfulness import numbers, strings
 from intents.english.words import lexicon
 from intents.english.words.lexer import words_in
+from intents.english.words.measures import number
 from intents.english.words.names import NameIndex
 from intents.goals import (
     Answer,
@@ -42,13 +44,15 @@ _QUOTED = re.compile(r"[\"“«][^\"”»]*[\"”»]")
 _TAKES_BACK = re.compile(
     r"\b(?:(?:wait|actually|sorry|oh|ah|but|hang on)\W+)?(?:no|nah|naw|nope)\b(?!\s+(?:rush|hurry|"
     r"problem|need|worries|matter|longer|more|one|idea|doubt|trouble|other|further))|"
+    r"\bor\W+(?:wait|rather|hang on|hold on|hmm?)\b|"
     r"\b(?:scratch|scrap|strike|forget) that\b|\bcorrection\b|\bwhat am i saying\b|"
     r"\bon second thoughts?\b|\bi mean(?:t)?\b|\bsorry\b|\binstead\b"
 )
 """What takes back what was said before it."""
 _THEN = re.compile(r"\b(?:then|afterwards|after that|next|first|both)\b")
 _OTHERWISE = re.compile(
-    r"(?:[,.;:…—–]|\bor|\band)\s*(?:otherwise|elsewise|else|(?P<if_not>if not)|"
+    r"(?:[,.;:…—–]|\bor|\band)\s*(?:otherwise|elsewise|else|(?P<if_not>(?:if )?(?:not|no|none)"
+    r"(?: (?:have|there|got|found))?(?=,| then\b)|if not)|"
     r"failing (?:that|which))\b\W*"
     r"(?P<then>.*)"
 )
@@ -72,7 +76,10 @@ _NAMED = re.compile(
 """Something that is told of, whatever it is."""
 _SPEAKS = (Say, Ask, Answer)
 _Moving = Bring | Give | Place | Guide
-_MOVES = 2
+_MOVES = _SEVERAL = 2
+_DENIES = lexicon.words("not don't never than of without except no for like")
+_SORTS = {"room": "place", "category": "object"}
+"""Names of these take one another's place."""
 
 
 class Contradiction(NamedTuple):
@@ -92,6 +99,9 @@ def contradiction(text: str, goals: tuple[Goal, ...], index: NameIndex) -> Contr
             told = sense(plain, goals)
             if told is not None:
                 return told
+        instead = _lost_instead(plain, goals, index)
+        if instead:
+            return Contradiction(instead, goals)
         either = _EITHER.search(plain) if len(goals) == 1 else None
         if either:
             return Contradiction(either.group().strip(" ,.;:!?"), goals)
@@ -110,6 +120,43 @@ def _taken_back(plain: str, goals: tuple[Goal, ...]) -> Contradiction | None:
                 kept = tuple(goal for goal in goals if goal is not one)
                 return Contradiction(found.group().strip(" ,.;"), kept)
     return None
+
+
+def _lost_instead(plain: str, goals: tuple[Goal, ...], index: NameIndex) -> str:
+    """The desk, no, *the shelf* is better; take four, no, *three*: said instead, and in no goal."""
+    for found in _TAKES_BACK.finditer(plain):
+        before, after = words_in(plain[: found.start()]), words_in(plain[found.end() :])
+        if found.group().startswith("but"):
+            continue  # the box, but no the lid
+        told = set(strings(goals))
+        first, last = _names(before, index), [*_names(after, index)]
+        kept = {kind for name, kind in last if name.lower() in told}
+        gone = {kind for name, kind in first if name.lower() in told} - kept
+        lost = next((name for name, kind in last if kind in gone and name.lower() not in told), "")
+        counts = [n for words in (before, after) for n in (_numbers(words),)]
+        said = {*map(float, numbers(goals))}
+        number_lost = counts[0] & said - counts[1] and counts[1] - said - counts[0]
+        if lost or number_lost:
+            return plain[found.start() :].strip(" ,.;:!?")
+    return ""
+
+
+def _names(words: list[str], index: NameIndex) -> Iterator[tuple[str, str]]:
+    """The names of things and places in some words, and people, that are not denied there."""
+    at = 0
+    while at < len(words):
+        match = index.match(words, at)
+        if match is None or _DENIES.intersection(words[max(0, at - 4) : at]):
+            at += 1
+            continue
+        yield from ((name.name, _SORTS.get(name.kind, name.kind)) for name in match.names[:1])
+        at = match.end
+
+
+def _numbers(words: list[str]) -> set[float]:
+    """The counts in some words, but for one: that may be no count."""
+    found = (number(words, at) for at in range(len(words)))
+    return {n.value for n in found if n is not None and n.value >= _SEVERAL}
 
 
 def _counted_twice(plain: str, goals: tuple[Goal, ...]) -> Contradiction | None:

@@ -39,6 +39,8 @@ _PLACED = lexicon.words(
 """What says where a thing is, or adds nothing."""
 _PARTS = lexicon.words("door gate drawer window light lamp shelf cupboard cabinet curtain switch")
 """Of what there are several in most homes, so that "of the" tells which."""
+_THOSE = lexicon.words("them those these the")
+_ON = lexicon.words("on in at from by near behind under off")
 _LINKS = lexicon.words("and but then so or because if when while , .")
 
 
@@ -57,7 +59,7 @@ def lost_description(text: str, goals: Iterable[Goal], index: NameIndex) -> str:
         if isinstance(goal, Conditional)
         for one in simple_conditions(goal.condition)
     )
-    lost = [*_relatives(words, told, index, denied=denied)]
+    lost = [*_relatives(words, told, index, denied=denied), *_partitives(words, told, index)]
     if any(isinstance(goal, Open | Close | Switch) for goal in every):
         lost += _owners(words, told)
     return next(iter(lost), "")
@@ -85,11 +87,27 @@ def _relatives(
 
 
 def _ends_name(words: list[str], at: int, index: NameIndex) -> bool:
-    """Whether the name of a thing or somebody ends before a word."""
+    """Whether the name of a thing, or the last word of one, ends before a word."""
+    if any(name.kind in ("object", "category") for name in index.partial(words[at - 1])):
+        return True
     found = (index.match(words, begin) for begin in range(max(0, at - 4), at))
     return any(
         match is not None and match.end == at and match.of("object", "category") for match in found
     )
+
+
+def _partitives(words: list[str], told: set[str], index: NameIndex) -> Iterator[str]:
+    """A bowl, one *of those on the worktop*, where no goal says "worktop"."""
+    for at in range(len(words) - 4):
+        if words[at] not in lexicon.ONES or words[at + 1] not in ("of", "o", "o'"):
+            continue
+        if words[at + 2] not in _THOSE or words[at + 3] not in _ON:
+            continue
+        begin = at + 4 + (words[at + 4] in lexicon.DETERMINERS)
+        match = index.match(words, begin)
+        names = match.names if match else ()
+        if names and not any(told.issuperset(name.name.lower().split()) for name in names):
+            yield " ".join(words[at + 1 : match.end if match else begin])
 
 
 def _owners(words: list[str], told: set[str]) -> Iterator[str]:

@@ -9,6 +9,7 @@ asked about.
 
 import re
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 from intents.english.faithfulness import CARRYING, numbers, strings
@@ -32,9 +33,13 @@ from intents.english.words.spelling import GRAMMAR_WORDS
 from intents.goals import (
     Cancel,
     Count,
+    Find,
     Goal,
+    GoTo,
+    If,
     LookAt,
     Pause,
+    Person,
     Report,
     Say,
     Stop,
@@ -93,6 +98,10 @@ _MEANT = re.compile(r"\bI meant? (?:the|a|an|my|your|our|his|her|this|that)\s+\w
 _BY_THE_WAY = (Wait, Stop, Cancel, Pause, Report)
 """What is read out of talk beside an order: "hang on", "never mind", "look"."""
 _SEVERAL = 2
+_POSTURES = lexicon.words("sitting standing lying")
+_BRINGS = lexicon.words("bring take carry fetch")
+_TAKEN = lexicon.words("him her them it")
+_HOLES = lexicon.words("hole socket slot outlet gap crack")
 _LIMITING = (
     CARRYING | CONDITIONS | TIMES | CALENDAR | DENIALS | CHOICES | QUANTITIES | MEASURES | SPOTS
 ) - lexicon.words("one")
@@ -373,6 +382,69 @@ def _loses_count(case: _Case) -> bool:
     return False
 
 
+def _loses_who(case: _Case) -> bool:
+    """How many *ladies* are *sitting* there? Whether no goal says of which people that is asked."""
+    people = [
+        person
+        for goal in each(case.goals)
+        for person in [getattr(goal, "person", None)]
+        if isinstance(person, Person)
+    ]
+    if not people or any(person.name for person in people):
+        return False
+    genders = {lexicon.GENDERS[word] for word in case.words if word in lexicon.GENDERS}
+    postures = {word for word in case.words if word in _POSTURES}
+    lost_gender = len(genders) == 1 and all(person.gender is None for person in people)
+    return lost_gender or (bool(postures) and all(person.posture is None for person in people))
+
+
+def _does_denied(case: _Case) -> bool:
+    """Turn on *no television*: whether what is done is done with what was denied by its name."""
+    told = set(strings(case.goals))
+    for at, word in enumerate(case.words[:-1]):
+        match = case.names.match(case.words, at + 1) if word == "no" else None
+        if match is not None and any(name.name.lower() in told for name in match.names):
+            again = " ".join(case.words).count(" ".join(case.words[at + 1 : match.end]))
+            if again == 1 and not any(isinstance(goal, If) for goal in each(case.goals)):
+                return True
+    return False
+
+
+def _carries_nothing(case: _Case) -> bool:
+    """*Bring him* (to) see Ada: whether somebody or something is to be taken, and none is."""
+    every = list(each(case.goals))
+    if not all(isinstance(goal, (Find, Tell, LookAt, Count, GoTo)) for goal in every):
+        return False
+    return any(word in _BRINGS and after in _TAKEN for word, after in pairwise(case.words))
+
+
+def _puts_by_part(case: _Case) -> bool:
+    """In the *plug hole*, before somebody *pits* his foot: whether a part is taken for a place."""
+    spots = {
+        spot.lower()
+        for goal in each(case.goals)
+        for spot in (getattr(goal, "on", None), getattr(goal, "in_", None))
+        if isinstance(spot, str)
+    }
+    words = case.words
+    whole = {
+        name.name.lower()
+        for at in range(len(words))
+        for match in [case.names.match(words, at)]
+        if match
+        for name in match.names
+        if words[match.end - 1] == name.name.lower().split()[-1]
+    }
+    for spot in spots - whole:
+        ends = spot.split()[-1]
+        for at, word in enumerate(words[:-1]):
+            verb = word == f"{ends}s" and words[at + 1] in lexicon.DETERMINERS
+            part = word in spot.split() and words[at + 1] in _HOLES
+            if verb or part:
+                return True
+    return False
+
+
 _BY_KIND = {
     SentenceKind.ORDER: 0.0,
     SentenceKind.UNASKED: QUITE_SURE,
@@ -390,6 +462,10 @@ _DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
     (_names_nothing, NEVER),
     (_loses_time, NEVER),
     (_leaves_out, NEVER),
+    (_loses_who, NEVER),
+    (_does_denied, NEVER),
+    (_carries_nothing, NEVER),
+    (_puts_by_part, NEVER),
     (_is_short, NEVER),
     (_calls_somebody, NEVER),
     (_is_not_of_itself, NEVER),

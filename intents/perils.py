@@ -119,6 +119,16 @@ _INSIDE = "in "
 _WATER, _FIRE = "water and electricity", "it may burn"
 
 
+_FUMES = re.compile(
+    r"\b(?:oxygen|gas (?:leak|smell|bottle|cylinder|canister)|smell(?:s)? (?:of )?gas|leaking gas|"
+    r"petrol|fumes|fuel|flammable|thinners?)\b"
+)
+_LIGHTS = words("lighter match matches matchbox candle flare cigarette firelighter")
+_MAINS = re.compile(
+    r"\b(?:plug ?hole|(?:wall |power |electric(?:al)? )?(?:socket|outlet)s?|mains)\b"
+)
+
+
 def peril(text: str, goals: Iterable[Goal]) -> str:
     """What is dangerous about goals, in words; empty if nothing is.
 
@@ -172,6 +182,14 @@ def _sharp(said: str, thing: str, where: str) -> str:
     return "it is sharp" if _ends(where) & _CHILDS_PLACES else ""
 
 
+def _mains(said: str, thing: str, where: str) -> str:
+    """A screwdriver in the socket; a lighter where there is gas."""
+    if where and _MAINS.search(said) and not _words(thing) & words("plug charger lead cable"):
+        return "there is electricity in it"
+    fumes = _FUMES.search(said) and not _FUMES.search(thing)
+    return _FIRE if fumes and _words(thing) & _LIGHTS else ""
+
+
 def _swallowed(said: str, thing: str, _: str) -> str:
     poison = _words(thing) & _POISON
     return "nobody should swallow it" if poison and _DRUNK.search(said) else ""
@@ -183,7 +201,7 @@ def _for_a_child(said: str, thing: str, where: str) -> str:
 
 
 _SENSES: tuple[Callable[[str, str, str], str], ...] = (
-    _electric, _burning, _hot, _sharp, _swallowed, _for_a_child,
+    _electric, _mains, _burning, _hot, _sharp, _swallowed, _for_a_child,
 )  # fmt: skip
 
 

@@ -97,6 +97,8 @@ GREETING = re.compile(
     r"^\W*(?:(?:sorry|excuse me|hey|hi|hello|okay|ok|well|right|so)\b\W*)+", re.IGNORECASE
 )
 """Ahead of an order these leave it as plainly put."""
+_CLIPPED = re.compile(r"\b[tT]['’](?=[a-z]{2})")
+"""On *t'* worktop: the article in the north of England, which hides the name."""
 _BESIDE = re.compile(rf",\s*(?:{'|'.join(sorted(lexicon.DETERMINERS))})\s+(\w+)\s*,")
 """Something more that is meant: "the kettle, the cosy, ..."."""
 
@@ -181,7 +183,7 @@ def _says_less(both: Both) -> bool:
 
 def names_in(text: str, index: NameIndex) -> list[Name]:
     """The names of the world in a sentence."""
-    said = units(words_of(text), index)
+    said = units(words_of(_CLIPPED.sub("the ", text)), index)
     return [Name(one.sort, one.names, one.is_whole, one.said) for one in said if one.names]
 
 

@@ -41,6 +41,7 @@ from intents.goals import Answer, Count, Find, Goal, Person, Say, Tell
 _ABOUT = lexicon.phrases(
     "about,of,know,know about,as to,regarding,that,on,to know,with,out,me with"
 )
+_SINGS = lexicon.words("sing chant hum")
 _WONDERED = lexicon.WH | lexicon.words("if whether about")
 _KNOWS = lexicon.phrases("know,in on")
 """Let Ada *know*, let her *in on it*: the rest is hers to do."""
@@ -68,6 +69,8 @@ _SPEAKING = {"say", "tell", "answer", "inform"}
 
 def say(text: Text, at: int, scope: Scope) -> Found:
     """Say good night to Emil; say "dinner is served"."""
+    if text.word(at - 1) in _SINGS and text.word(at) not in (QUOTE, "happy"):
+        raise NotUnderstood("I cannot sing")
     if text.word(at) == QUOTE:
         return _quotes(text, at, scope)
     if text.word(at) == COMMA and text.word(at - 1).endswith("ing"):

@@ -248,6 +248,13 @@ def leave(clause: Clause, scope: Scope) -> list[Goal]:
     if target and target.phrase.noun == "operator" and {"alone", "be"} & set(words):
         raise NotUnderstood("All right, I leave you alone")
     noun = target.phrase.noun if target else ""
+    text_before = clause.text.word(clause.first - 2) if clause.verb == "leave" else ""
+    stays = target is None and text_before == "you"
+    furniture = (
+        target is not None and target.phrase.name("place") and not target.phrase.name("room")
+    )
+    if stays or (furniture and clause.verb == "leave"):
+        raise Misfit("that is to put something down")
     if noun == "pronoun" or (noun == "unknown" and target and not _is_home(target.phrase)):
         raise Misfit("that is to put something down")
     if exit_to:
