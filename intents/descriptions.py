@@ -25,6 +25,7 @@ from intents.goals import (
 )  # fmt: skip
 from intents.goals import If as Conditional
 
+_SIGNS_OF_ONE = re.compile(r"\b(?:that|which|who|nobody|noone|of|o)\b")
 _RELATIVE = lexicon.words("that which who")
 _BEING = lexicon.words("is are was were has have had does do did can could will 's")
 _NOBODY = lexicon.words("nobody noone")
@@ -46,10 +47,13 @@ _LINKS = lexicon.words("and but then so or because if when while , .")
 
 def lost_description(text: str, goals: Iterable[Goal], index: NameIndex) -> str:
     """The description in a text that none of the goals carries; empty if there is none."""
+    lower = text.lower()
+    if _SIGNS_OF_ONE.search(lower) is None:
+        return ""
     every = list(each(tuple(goals)))
     if any(isinstance(goal, Say | Ask | Answer) for goal in every):
         return ""
-    plain = re.sub(r"n['’]t\b", " not", text.lower().replace("can't", "cannot"))
+    plain = re.sub(r"n['’]t\b", " not", lower.replace("can't", "cannot"))
     words = [w for part in re.split(r"([,.;:!?—–]+)", plain) for w in (words_in(part) or [","])]
     told = {w for said in strings(every) for w in re.split(r"[\s_-]+", said)}
     told |= {singular(word) for word in told}

@@ -46,7 +46,10 @@ def missed(text: str, goals: Iterable[Goal], index: NameIndex) -> str:
         return ""
     if all(isinstance(goal, _DONE_NOW) for goal in every):
         return ""
-    plain = _nameless(" ".join(text.lower().replace("’", "'").split()), index)
+    lower = text.lower()
+    if next(occasions(lower), None) is None:
+        return ""  # what is found in a name counts for nothing, and is looked for only then
+    plain = _nameless(" ".join(lower.replace("’", "'").split()), index)
     return next(occasions(plain), "")
 
 

@@ -35,7 +35,7 @@ class Matrix(NamedTuple):
 
     def of(self, x: Array) -> Array:
         """``x`` times the transposed matrix; shape (n, rows)."""
-        return (x @ self.bytes.astype(np.float32).T) * self.scale
+        return (x @ self.bytes.astype(np.float32, copy=False).T) * self.scale
 
 
 class Network(NamedTuple):

@@ -64,6 +64,8 @@ _BEGINNING = 32
 """So many letters tell what no name begins with; names of strangers may have thousands."""
 _MANY_SENSES = words("counter paper bin glasses remote hall mobile study")
 """Words for other things that what is called so may be as well."""
+_MOST_WORDS = 4096
+"""So many words are remembered to be names or none."""
 _PART = 2
 """A part that is no longer than this, "of" or "a", tells nothing."""
 
@@ -91,6 +93,7 @@ class NameIndex:
         """Compile; takes a few hundred microseconds for a household."""
         self._names: dict[str, tuple[Name, ...]] = {}
         self._parts: dict[str, tuple[Name, ...]] = {}
+        self._alone: dict[str, tuple[Name, ...]] = {}
         self._longest = 1
         told = {t.color: t.color for t in vocabulary.objects if t.color.isalpha()}
         self.colors = told | COLORS
@@ -162,7 +165,9 @@ class NameIndex:
         """The longest name that begins at a word."""
         if start >= len(words):
             return None
-        longest = self._longest if words[start][:_BEGINNING] in self._begins else 1
+        if words[start][:_BEGINNING] not in self._begins:
+            return self._match_alone(words[start], start)
+        longest = self._longest
         stop = min(len(words), start + longest)
         for end in range(start + 1, stop + 1):
             if not words[end - 1][0].isalnum() and words[end - 1] != "'s":
@@ -173,6 +178,16 @@ class NameIndex:
             if names:
                 return Match(end, names)
         return None
+
+    def _match_alone(self, word: str, start: int) -> Match | None:
+        """The names that a word stands for with which no longer name begins: many are plurals."""
+        names = self._alone.get(word)
+        if names is None:
+            names = self._names.get(_key([word]), ()) if word[0].isalnum() else ()
+            if len(self._alone) >= _MOST_WORDS:
+                self._alone.clear()
+            self._alone[word] = names
+        return Match(start + 1, names) if names else None
 
     def variants(self, name: str) -> tuple[str, ...]:
         """What tells the things of a name apart, where each has a colour or size of its own."""

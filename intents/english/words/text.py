@@ -115,6 +115,25 @@ _PACE = re.compile(
 """How fast something is to be done; a goal has no slot for it."""
 
 
+_TABLES: dict[int, tuple[Collection[Phrase], dict[str, int]]] = {}
+_MOST_TABLES = 512
+"""So many tables are kept by identity; the grammar has a third of that."""
+
+
+def _longest_by_first(table: Collection[Phrase]) -> dict[str, int]:
+    """How many words the longest phrase of a table has, by its first word; kept with the table."""
+    kept = _TABLES.get(id(table))
+    if kept is not None and kept[0] is table:
+        return kept[1]
+    longest: dict[str, int] = {}
+    for phrase in filter(None, table):
+        longest[phrase[0]] = max(longest.get(phrase[0], 0), min(len(phrase), _LONGEST_PHRASE))
+    if len(_TABLES) >= _MOST_TABLES:
+        _TABLES.clear()
+    _TABLES[id(table)] = (table, longest)
+    return longest
+
+
 class Text:
     """The tokens of what was said, with the names that stand in it.
 
@@ -203,7 +222,7 @@ class Text:
 
     def lookup(self, table: Mapping[Phrase, T], at: int) -> tuple[T, int] | None:
         """What the longest phrase of a table at a word means, and where it ends."""
-        for end in range(min(len(self.words), at + _LONGEST_PHRASE), at, -1):
+        for end in range(self._farthest(table, at), at, -1):
             phrase = tuple(self.words[at:end])
             if phrase in table:
                 return table[phrase], end
@@ -211,10 +230,18 @@ class Text:
 
     def phrase_end(self, table: Collection[Phrase], at: int) -> int | None:
         """Where the longest phrase of a set at a word ends."""
-        for end in range(min(len(self.words), at + _LONGEST_PHRASE), at, -1):
+        for end in range(self._farthest(table, at), at, -1):
             if tuple(self.words[at:end]) in table:
                 return end
         return None
+
+    def _farthest(self, table: Collection[Phrase], at: int) -> int:
+        """Where a phrase of a table that begins with a word may end at most."""
+        if at >= len(self.words):
+            return at
+        begins = _longest_by_first(table) if at >= 0 else None
+        longest = _LONGEST_PHRASE if begins is None else begins.get(self.words[at], 0)
+        return min(len(self.words), at + longest)
 
     def without(self, spans: Collection[tuple[int, int]], *, joined: bool = False) -> "Text":
         """The text without the words of some segments, and without the signs left over.
