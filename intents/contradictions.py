@@ -78,6 +78,8 @@ _SPEAKS = (Say, Ask, Answer)
 _Moving = Bring | Give | Place | Guide
 _MOVES = _SEVERAL = 2
 _DENIES = lexicon.words("not don't never than of without except no for like")
+_TELL_OF = lexicon.words("is are 's was were have has had 've got see sees with or")
+_STILL = (["left"], ["there"], ["here"], ["remaining"], ["yet"])
 _SORTS = {"room": "place", "category": "object"}
 """Names of these take one another's place."""
 
@@ -99,7 +101,7 @@ def contradiction(text: str, goals: tuple[Goal, ...], index: NameIndex) -> Contr
             told = sense(plain, goals)
             if told is not None:
                 return told
-        instead = _lost_instead(plain, goals, index)
+        instead = _lost_instead(plain, goals, index) or _denied(plain, goals, index)
         if instead:
             return Contradiction(instead, goals)
         either = _EITHER.search(plain) if len(goals) == 1 else None
@@ -138,6 +140,23 @@ def _lost_instead(plain: str, goals: tuple[Goal, ...], index: NameIndex) -> str:
         number_lost = counts[0] & said - counts[1] and counts[1] - said - counts[0]
         if lost or number_lost:
             return plain[found.start() :].strip(" ,.;:!?")
+    return ""
+
+
+def _denied(plain: str, goals: tuple[Goal, ...], index: NameIndex) -> str:
+    """Two cups and *no plate*: a thing that is denied by its name, and something is done with it.
+
+    "There is no milk, fetch some" tells of it.
+    """
+    words, told = words_in(plain), set(strings(goals))
+    for at in range(1, len(words) - 1):
+        denies = words[at] == "no" and words[at - 1] not in _TELL_OF
+        match = index.match(words, at + 1) if denies else None
+        if match is None or not any(name.name.lower() in told for name in match.names):
+            continue
+        name = " ".join(words[at + 1 : match.end])
+        if " ".join(words).count(name) == 1 and words[match.end : match.end + 1] not in _STILL:
+            return f"no {name}"
     return ""
 
 

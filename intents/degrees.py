@@ -46,6 +46,7 @@ _TOGETHER = re.compile(
     rf"\b{_CARRIES}\b[^,.;:!?]*\b((?:together )?with (?:me|us|him|her|them))\b"
     r"|\b(you (?:take |grab |hold |have )?(?:the|one) (?:other )?(?:\w+ )?(?:end|side|feet|head|"
     r"front|back|top|bottom)[, ]+(?:and )?(?:i|me|he|she|we)\b)"
+    rf"|\b(help (?!me\b|us\b)\w+(?: \w+)?) (?:to )?{_CARRIES}\b"
     rf"|\b{_CARRIES}\b[^,.;:!?]*\b(between us|together with)\b"
 )
 _WITH = re.compile(rf"\b{_CARRIES}\b[^,.;:!?]*?\bwith (?=\w)")

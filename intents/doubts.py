@@ -36,7 +36,6 @@ from intents.goals import (
     Find,
     Goal,
     GoTo,
-    If,
     LookAt,
     Pause,
     Person,
@@ -398,16 +397,9 @@ def _loses_who(case: _Case) -> bool:
     return lost_gender or (bool(postures) and all(person.posture is None for person in people))
 
 
-def _does_denied(case: _Case) -> bool:
-    """Turn on *no television*: whether what is done is done with what was denied by its name."""
-    told = set(strings(case.goals))
-    for at, word in enumerate(case.words[:-1]):
-        match = case.names.match(case.words, at + 1) if word == "no" else None
-        if match is not None and any(name.name.lower() in told for name in match.names):
-            again = " ".join(case.words).count(" ".join(case.words[at + 1 : match.end]))
-            if again == 1 and not any(isinstance(goal, If) for goal in each(case.goals)):
-                return True
-    return False
+def _does_purpose(case: _Case) -> bool:
+    """*In order to open it* bring me the key: whether more is done than what is good for that."""
+    return "in order to" in " ".join(case.words) and len(case.goals) > 1
 
 
 def _carries_nothing(case: _Case) -> bool:
@@ -463,7 +455,7 @@ _DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
     (_loses_time, NEVER),
     (_leaves_out, NEVER),
     (_loses_who, NEVER),
-    (_does_denied, NEVER),
+    (_does_purpose, NEVER),
     (_carries_nothing, NEVER),
     (_puts_by_part, NEVER),
     (_is_short, NEVER),

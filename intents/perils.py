@@ -171,7 +171,8 @@ def _hot(said: str, thing: str, where: str) -> str:
     tool = _ends(thing) & _HOT_TOOLS and any(one in thing for one in _HOT_TOOL_NAMES)
     heated = _HEATED.search(said) and not _NOT_HOT.search(said)
     heated = heated and not _HEATED.search(thing)
-    return _FIRE if (tool or heated) and _words(where) & _SOFT else ""
+    soft = _words(where) & (_SOFT | _BURNS)
+    return _FIRE if (tool or heated) and soft else ""
 
 
 def _sharp(said: str, thing: str, where: str) -> str:

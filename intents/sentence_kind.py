@@ -32,6 +32,9 @@ _ONLY_SAID = re.compile(
     r"any|your|his|her|to|another|more)\w+[^,.;:!?]*"
     r"|(?:shall|must|do) i (?!have (?:a|the|some|my)|get (?:a|the|some|my)|ask|trouble)"
     r"[^,.;:!?]*\?"
+    r"|(?:what|who|why|when|which \w+|how(?: \w+)?) (?!would you (?:say|like|feel|mind)|about|not)"
+    r"(?:would|will|did|do|does|is|are|was|were|should|has|have|had|happens) "
+    r"(?!you say\b|\w+ get to\b)[^.!?]*\?"
     r"|(?:that's |that is )?enough (?!of)\w+ for [^,.;:!?]*"
     r")[.!?]*"
 )

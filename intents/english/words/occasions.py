@@ -24,6 +24,8 @@ _OCCASION = re.compile(
     rf"|\b{_DAY}s?(?:\s+(?:morning|afternoon|evening|night)s?)?{_END}"
     r"|\b(?:first thing\s+)?(?:tomorrow|tonight)\b(?!['’]s)"
     r"(?:\s+(?:morning|afternoon|evening|night))?"
+    r"|\bat the (?:end|close) of (?:the |my |our )?(?:day|week|month|year|shift|meeting|lesson|"
+    r"party|game|film|show|session|class|service|evening|night|morning|afternoon)\b"
     r"|\bthis (?:evening|afternoon)\b|\bnext (?:week|month|year|time)\b"
     r"|\bin the (?:morning|afternoon|evening)s?\b|\bfirst thing\b(?!\s+(?:you|i|we|is|to|about))"
     r"|\bat (?:noon|midnight|midday|dawn|dusk|sunset|sunrise|nightfall|lunchtime|bedtime|teatime|"
@@ -45,7 +47,8 @@ _STANDING = re.compile(r"^\W*(?:please\s+)?always\s+(\w+)")
 _NO_OCCASION = re.compile(r"\b(?:not|no|don['’]?t|never|than|for|of)\s+(?:the\s+)?$")
 """Not *tonight*: what it is not; later *than ten*; *for* tonight: what for."""
 _CLAUSES = re.compile(
-    r"[,;:!?—–(]+|\.(?!\d)|\b(?:but|so|because|since|cause|as|while|although|though)\b"
+    r"[,;:!?—–(]+|\.(?!\d)|"
+    r"\b(?:but|so|because|since|cause|(?<!soon )as(?! soon)|while|although|though)\b"
 )
 _TOLD = re.compile(
     r"['’](?:s|re|ve|ll|m|d)\b|\b(?:is|are|was|were|am|will|has|had|does|did|comes?|came|starts?|"

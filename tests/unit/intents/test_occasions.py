@@ -23,6 +23,7 @@ _OCCASIONS = (
     "every evening", "daily at six", "tomorrow", "tonight", "at dusk", "first thing tomorrow",
     "on Tuesdays", "each Friday", "twice a week", "at half past five", "at nine o'clock",
     "from now on", "once I am back", "when she gets home", "in the morning", "next week",
+    "as soon as he's done", "at the end of the day",
 )  # fmt: skip
 
 
