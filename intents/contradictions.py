@@ -155,7 +155,9 @@ def _denied(plain: str, goals: tuple[Goal, ...], index: NameIndex) -> str:
         if match is None or not any(name.name.lower() in told for name in match.names):
             continue
         name = " ".join(words[at + 1 : match.end])
-        if " ".join(words).count(name) == 1 and words[match.end : match.end + 1] not in _STILL:
+        straight = re.search(rf"\w no {re.escape(name)}\b", plain)  # to Ravi, no, Olga takes back
+        once = straight and " ".join(words).count(name) == 1
+        if once and words[match.end : match.end + 1] not in _STILL:
             return f"no {name}"
     return ""
 

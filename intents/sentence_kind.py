@@ -39,6 +39,8 @@ _ONLY_SAID = re.compile(
     r")[.!?]*"
 )
 """What asks for nothing from the first word to the last."""
+_CALLED = re.compile(r"\bcall(?:ed|s)?\b", re.IGNORECASE)
+"""The, how is it *called*, the ladle: nobody is quoted."""
 _NO_ORDER = {"begins=article", "begins=name", "begins=about"}
 """How a sentence begins that has no form of an order."""
 
@@ -95,7 +97,7 @@ def only_told(text: str, goals: Sequence[Goal]) -> bool:
     """
     looks = all(isinstance(goal, (*LOOKING, Stop, Say, Ask)) for goal in each(goals))
     plain = " ".join(text.lower().replace("’", "'").split())
-    return not looks and (bool(_ONLY_SAID.fullmatch(plain)) or is_reported(text))
+    return not looks and (bool(_ONLY_SAID.fullmatch(plain)) or is_reported(_CALLED.sub("", text)))
 
 
 def _wonders(text: str, goals: Sequence[Goal]) -> bool:

@@ -165,5 +165,7 @@ def meant(text: str, index: NameIndex, fields: Fields = LEARNT) -> Meant | None:
     at = acts.labels.index(act)
     plain = {word.raw.lower().replace("’", "'") for word in words}
     rows = {word: acts.rows[f"w={word}"] for word in plain if f"w={word}" in acts.rows}
-    speaking = frozenset(word for word, row in rows.items() if acts.weights[row, at] > _SPEAKS)
+    speaking = frozenset(
+        word for word, row in rows.items() if float(acts.weights[row, at]) > _SPEAKS
+    )
     return Meant(act, words, roles, also, idle, speaking, sure)
