@@ -23,6 +23,8 @@ _SWITCHABLE = words(
     "dryer toaster device chandelier"
 )
 _ONLY_SWITCHED = words("light lamp tv television telly fan heater radio stereo speaker projector")
+_WINDOWS = words("skylight fanlight daylight")
+"""These are opened and closed, unlike a floodlight."""
 _APPLIANCES = _SWITCHABLE | words("radio stereo speaker printer blender mixer console")
 """What is a device where a world has it; not all of them are in every home."""
 
@@ -134,7 +136,8 @@ def close(clause: Clause, scope: Scope) -> list[Goal]:
 
 def _only_switched(name: str) -> bool:
     """Close *the radio*; open *the lamp*: what has no lid or door is switched, as learners say."""
-    return singular(name.rsplit(maxsplit=1)[-1].lower()) in _ONLY_SWITCHED
+    head = singular(name.rsplit(maxsplit=1)[-1].lower())
+    return head in _ONLY_SWITCHED or (head.endswith("light") and head not in _WINDOWS)
 
 
 def _opened(clause: Clause, scope: Scope, act: str) -> list[str]:

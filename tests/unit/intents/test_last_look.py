@@ -143,6 +143,13 @@ def test_of_several_counters_one_is_asked_for() -> None:
     assert isinstance(table.goals[0], Place)
 
 
+def test_a_floodlight_has_no_lid() -> None:
+    closed, off = (parse(said, LODGE) for said in ("close the floodlight", "floodlight off"))
+    assert isinstance(closed, Goals)
+    assert isinstance(off, Goals)
+    assert closed.goals == off.goals
+
+
 @pytest.mark.parametrize("said", ["sing me a song", "can you sing Greensleeves at all?"])
 def test_it_does_not_say_what_is_to_be_sung(said: str) -> None:
     assert not isinstance(parse(said, LODGE), Goals)
