@@ -55,6 +55,7 @@ from intents.mismatches import (
     measures_lost,
     mistimes,
     orders_fewer,
+    puts_by_part,
     switches_furniture,
     turns_round,
     waits_for_nothing,
@@ -100,7 +101,6 @@ _SEVERAL = 2
 _POSTURES = lexicon.words("sitting standing lying")
 _BRINGS = lexicon.words("bring take carry fetch")
 _TAKEN = lexicon.words("him her them it")
-_HOLES = lexicon.words("hole socket slot outlet gap crack")
 _LIMITING = (
     CARRYING | CONDITIONS | TIMES | CALENDAR | DENIALS | CHOICES | QUANTITIES | MEASURES | SPOTS
 ) - lexicon.words("one")
@@ -411,30 +411,7 @@ def _carries_nothing(case: _Case) -> bool:
 
 
 def _puts_by_part(case: _Case) -> bool:
-    """In the *plug hole*, before somebody *pits* his foot: whether a part is taken for a place."""
-    spots = {
-        spot.lower()
-        for goal in each(case.goals)
-        for spot in (getattr(goal, "on", None), getattr(goal, "in_", None))
-        if isinstance(spot, str)
-    }
-    words = case.words
-    whole = {
-        name.name.lower()
-        for at in range(len(words))
-        for match in [case.names.match(words, at)]
-        if match
-        for name in match.names
-        if words[match.end - 1] == name.name.lower().split()[-1]
-    }
-    for spot in spots - whole:
-        ends = spot.split()[-1]
-        for at, word in enumerate(words[:-1]):
-            verb = word == f"{ends}s" and words[at + 1] in lexicon.DETERMINERS
-            part = word in spot.split() and words[at + 1] in _HOLES
-            if verb or part:
-                return True
-    return False
+    return puts_by_part(case.words, case.goals, case.names)
 
 
 _BY_KIND = {

@@ -36,6 +36,7 @@ _CLAUSES = re.compile(r"[,.;:!?…—–]+|\b(?:and|then)\b")
 _NEAR = 1e-3
 _SEVERAL = 2
 _REACH = 3
+_HOLES = lexicon.words("hole socket slot outlet gap crack")
 
 
 def turns_round(words: list[str], goals: Sequence[Goal]) -> bool:
@@ -154,3 +155,29 @@ def orders_fewer(text: str, goals: Sequence[Goal]) -> bool:
         orders = follows and base_form(words[0]) == words[0] and bool(verbs_at(words, 0))
         begun += orders and words[0] not in _TAKES
     return begun > max(len(list(each(goals))), 1)
+
+
+def puts_by_part(words: list[str], goals: Sequence[Goal], names: NameIndex) -> bool:
+    """In the *plug hole*, before somebody *pits* his foot: whether a part is taken for a place."""
+    spots = {
+        spot.lower()
+        for goal in each(goals)
+        for spot in (getattr(goal, "on", None), getattr(goal, "in_", None))
+        if isinstance(spot, str)
+    }
+    whole = {
+        known.name.lower()
+        for at in range(len(words))
+        for match in [names.match(words, at)]
+        if match
+        for known in match.names
+        if words[match.end - 1] == known.name.lower().split()[-1]
+    }
+    for spot in spots - whole:
+        ends = spot.split()[-1]
+        for at, word in enumerate(words[:-1]):
+            verb = word == f"{ends}s" and words[at + 1] in lexicon.DETERMINERS
+            part = word in spot.split() and words[at + 1] in _HOLES
+            if verb or part:
+                return True
+    return False
