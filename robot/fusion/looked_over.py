@@ -9,11 +9,13 @@ no model of their own for that: the depth image has them.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from robot.messages import DepthImage, Looked, Place
-from robot.se3 import SE3, Array
+from robot.se3 import SE3, Array, Vector3
 
 WELL_M = 2.2
 """From further away things are noticed, but that there is nothing is not said [m]."""
@@ -23,6 +25,11 @@ ABOVE_M = 0.04
 """Half the height of a small thing: that far above the surface it must be in plain view [m]."""
 STANDING_M = 0.07
 """What is nearer than the point by less stands on it: radius of a mug, noise and all [m]."""
+DOUBT_M = 0.2
+"""Around what nobody has made out, a surface is not seen: samples are 0.25 m apart, so that it
+stands by one at least [m]."""
+DOUBT_ABOVE_M = 0.3
+"""Middles of things are no higher above what they stand on [m]."""
 EDGE_PX = 1
 """The head still moves when a picture is taken: the outermost pixels are not believed."""
 
@@ -57,8 +64,16 @@ class LookedOver:
             count += len(samples)
         self._points_W, self._seen_s = np.concatenate(points), np.concatenate(seen)
 
-    def see(self, image: DepthImage, X_WC: SE3) -> None:
-        """Take one depth image of a camera at X_WC."""
+    def see(self, image: DepthImage, X_WC: SE3, *, doubts_W: Sequence[Vector3] = ()) -> None:
+        """Take one depth image.
+
+        Args:
+            image: the image.
+            X_WC: where the camera was.
+            doubts_W: where something stands that may be anything still [m].
+        """
+        for doubt in doubts_W:
+            self._seen_s[_by(self._points_W, doubt)] = -math.inf
         eye = np.array(X_WC.p)
         near = np.flatnonzero(np.linalg.norm(self._points_W - eye, axis=1) < WELL_M)
         if not len(near):
@@ -68,6 +83,8 @@ class LookedOver:
         slope = np.arcsin(np.clip(off[:, 2] / np.linalg.norm(off, axis=1), -1.0, 1.0))
         well = (off[:, 2] < ABOVE_M) | (slope > GRAZING_RAD)
         well &= _in_plain_view(image, X_WC, points_W + np.array([0.0, 0.0, ABOVE_M]))
+        for doubt in doubts_W:
+            well &= ~_by(points_W, doubt)
         self._seen_s[near[well]] = image.stamp_s
 
     def looked(self) -> tuple[Looked, ...]:
@@ -76,6 +93,13 @@ class LookedOver:
             Looked(place_id=place_id, seen_s=tuple(self._seen_s[rows].tolist()))
             for place_id, rows in self._places
         )
+
+
+def _by(points_W: Array, p_W: Vector3) -> NDArray[np.bool_]:
+    """Which points of surfaces, shape (n, 3), are where a thing stands, shape (n,)."""
+    off = np.array(p_W) - points_W
+    beside = np.hypot(off[:, 0], off[:, 1]) < DOUBT_M
+    return beside & (off[:, 2] > 0.0) & (off[:, 2] < DOUBT_ABOVE_M)
 
 
 def _in_plain_view(image: DepthImage, X_WC: SE3, points_W: Array) -> Array:

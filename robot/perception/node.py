@@ -254,7 +254,7 @@ class PerceptionNode(Closing):
         self._world.see(look.sightings, view.X_WC, None)
         self._world.miss(look.missed)
         self._world.mistake(look.mistaken)
-        self._looked.see(gaze.surfaces(view), view.X_WC)
+        self._looked.see(gaze.surfaces(view), view.X_WC, doubts_W=look.doubts)
         if self._company is not None:
             self._company.see_picture(view.image, view.X_WC)
         gaze.publish(self._now_s)

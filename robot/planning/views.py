@@ -47,9 +47,10 @@ SET_OFF_S, TURN_S, LOOK_S = 5.0, 1.5, 0.7
 SWAY_M, NARROW_S_PER_M = 0.13, 120.0
 """Who stands sways, and steps in some centimetres off: with no more than the arms' own room they
 touched walls or furniture in 7 of 30 tasks. A place that lacks all of it costs 16 s."""
-APART_M = 0.3
+APART_M, NEARER = 0.3, 0.75
 """A point that did not show is looked at from so far away from there: planned lines of sight pass
-edges that the real ones, from a body that sways and stops centimetres off, do not."""
+edges that the real ones, from a body that sways and stops centimetres off, do not. What did not
+show may also have been too small to be made out: a share of that distance is nearer."""
 
 
 class _View(msgspec.Struct, frozen=True):
@@ -120,6 +121,11 @@ def _from_elsewhere(
         if (shown[number] & apart).any() or (near[number] and here):
             shown[number] &= apart
             near[number] &= here
+        point = request.points_W[number][:2]
+        nearer = np.hypot(*(cells - point).T) < NEARER * math.dist(vain, point)
+        if (shown[number] & nearer).any():
+            shown[number] &= nearer
+            near[number] &= math.dist(request.start[:2], point) < NEARER * math.dist(vain, point)
     return shown, near
 
 

@@ -124,12 +124,12 @@ class Survey:
         self._worth[near] *= factor
 
     def take(self, looked: Iterable[Looked]) -> None:
-        """Take what the world model has seen."""
+        """Take what the world model has seen, and no more where it cannot make something out."""
         for one in looked:
             rows = self._rows.get(one.place_id)
             if rows is not None and rows.stop - rows.start == len(one.seen_s):
                 seen_s = np.array(one.seen_s)
-                self._seen[rows] |= (seen_s >= self._since_s) & np.isfinite(seen_s)
+                self._seen[rows] = (seen_s >= self._since_s) & np.isfinite(seen_s)
 
     def tried(self, rows: Rows, at_m: tuple[float, float]) -> None:
         """A view of them, from a place on the floor, is over; what never shows is let be."""

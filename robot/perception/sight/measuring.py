@@ -88,7 +88,7 @@ def measured(
         hidden: pixels of the robot itself.
     """
     pixels = thing.pixels
-    if pixels[0].any() or pixels[-1].any() or pixels[:, 0].any() or pixels[:, -1].any():
+    if is_cut_off(pixels):
         return None
     points, depths = _points_W(view, pixels)
     if len(points) < LEAST_PX:
@@ -131,6 +131,12 @@ def measured(
         thing, p_W, covariance_W, (along_m, across_m, high_m), width_m, sigma_m, yaw_rad, foot_m,
         is_whole, form,
     )  # fmt: skip
+
+
+def is_cut_off(pixels: NDArray[np.bool_]) -> bool:
+    """Whether something goes on beyond the border of the picture."""
+    ends = (pixels[0], pixels[-1], pixels[:, 0], pixels[:, -1])
+    return any(bool(end.any()) for end in ends)
 
 
 def _points_W(view: Sight, pixels: NDArray[np.bool_]) -> tuple[Array, Array]:

@@ -40,6 +40,8 @@ class Recogniser:
     """The names that were given, by track.
 
     Attributes:
+        clear: of the names that were given last, by id, how much likelier it is so than any way of
+            naming in which their thing is another told one or none, in logarithms.
         mistaken: names that have lost their thing when names were given last, as it has another
             name now, or another colour; with what it is, in a word or two.
     """
@@ -51,6 +53,7 @@ class Recogniser:
         self._plurals: Mapping[str, str] = {}
         self._places: tuple[Place, ...] = ()
         self._number: dict[str, int] = {}
+        self.clear: dict[str, float] = {}
         self.mistaken: dict[str, str] = {}
 
     def tell(
@@ -70,7 +73,7 @@ class Recogniser:
         """Give names to tracks, or leave them; every named one by its id."""
         there = {track.number for track in tracks}
         self._number = {id: number for id, number in self._number.items() if number in there}
-        self.mistaken = {}
+        self.clear, self.mistaken = {}, {}
         if not tracks or not self._told:
             return {}
         fits = np.array(
@@ -87,6 +90,7 @@ class Recogniser:
             column = chosen.get(row)
             if column is not None and self._is_sure(fits, stays, chosen, row):
                 found[info.id] = tracks[column]
+                self.clear[info.id] = self._else(fits, row, column)
         before, self._number = self._number, {id: track.number for id, track in found.items()}
         self.mistaken = self._mistaken(before, {track.number: track for track in tracks})
         return found

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot.messages import ObjectInfo, Place, RgbdImage, Shape, Sighting, Sightings, WorldMap
+from robot.perception.sight.doubt import doubtful
 from robot.perception.sight.likeness import Knowledge
-from robot.perception.sight.measuring import Measured, measured
+from robot.perception.sight.measuring import Measured, is_cut_off, measured
 from robot.perception.sight.recognising import Recogniser
 from robot.perception.sight.tracking import Seen, Tracks
 from robot.perception.things.eyes import Eyes, SeenThing
@@ -44,12 +45,14 @@ class Look(NamedTuple):
         mistaken: what something was taken for that turns out to be another thing, also in a hand,
             with what that is; where the real one is, nobody has seen.
         things: everything that was measured in it, with the name it was given or "".
+        doubts: where something stands that nobody has made out yet [m], in W.
     """
 
     sightings: Sightings
     missed: frozenset[str]
     mistaken: dict[str, str]
     things: tuple[tuple[Seen, str], ...]
+    doubts: tuple[Vector3, ...] = ()
 
 
 class Seer:
@@ -137,7 +140,13 @@ class Seer:
             frozenset(before[track.number] for track in gone if track.number in before) - set(held),
             mistaken,
             tuple((track, names.get(track.number, "")) for track in seen),
+            self._doubts(looked),
         )
+
+    def _doubts(self, looked: Sequence[SeenThing]) -> tuple[Vector3, ...]:
+        clear = {self._named[name].number: odds for name, odds in self._recogniser.clear.items()}
+        cut_off = (one for one in looked if is_cut_off(one.pixels))
+        return doubtful(self._tracks.things, clear, cut_off)
 
     def _carry(self, held: Mapping[str, SE3]) -> None:
         """What is in a hand is where the hand is."""

@@ -34,6 +34,8 @@ ASIDE_M = 0.025
 """So far aside a thing may be seen from elsewhere, as the robot errs in where it is itself: what is
 there counts for it."""
 EDGE_PX = 8
+FORM_M = 1.25
+"""From further away a thing's side says little of whether it is round (`sight/form.py`)."""
 FORGET_ONCE_S = 4.0
 """What was seen only once may have been nothing."""
 
@@ -49,6 +51,7 @@ class Seen:
         size_m, size_sigma_m: its sides, its height, and its width across the line of sight.
         seen_s: when it was seen last.
         looks: how often.
+        near_looks: how often from so near that its form can be told, with nothing before it.
         colour_looks: how often its colours were, in a hand too.
     """
 
@@ -60,6 +63,7 @@ class Seen:
     size_sigma_m: float
     seen_s: float
     looks: int = 0
+    near_looks: int = 0
     misses: int = 0
     colour_looks: int = 0
     _logs: Array = field(default_factory=lambda: np.zeros(0))
@@ -90,6 +94,7 @@ class Seen:
         self.size_m = self.size_m + share * (_sizes(found) - self.size_m)
         self.size_sigma_m = math.sqrt((1.0 - share) * mine)
         self.looks, self.misses = self.looks + 1, 0
+        self.near_looks += found.is_whole and found.seen.range_m < FORM_M
         self.seen_s, self.last = now_s, found
 
     def _vote(self, found: Measured) -> None:

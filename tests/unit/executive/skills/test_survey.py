@@ -34,6 +34,14 @@ def test_what_the_world_model_has_seen_is_not_left() -> None:
     assert len(survey.left) == 0
 
 
+def test_what_the_world_model_has_not_made_out_after_all_is_left_again() -> None:
+    desk = place("desk")
+    survey = survey_of(desk)
+    survey.take([looked(desk, 5.0)])
+    survey.take([looked(desk, 6.0, share=0.5)])
+    assert len(survey.left) == round(0.5 * len(desk.samples()))
+
+
 def test_what_was_never_seen_is_not_seen_however_far_back_it_counts() -> None:
     desk = place("desk")
     survey = survey_of(desk, since_s=-math.inf)

@@ -88,3 +88,27 @@ def test_floors_are_no_surfaces() -> None:
     looked = LookedOver()
     looked.know((Place(id="room", name="room", X_WP=SE3(), size_m=(4.0, 4.0), floor=True),))
     assert looked.looked() == ()
+
+
+def test_where_something_stands_that_nobody_made_out_a_surface_is_not_looked_over() -> None:
+    """A desk with a green thing on it had "no mug on it" by a picture from 1.6 m."""
+    place = table()
+    looked = LookedOver()
+    looked.know((place,))
+    looked.see(picture(), camera())
+    assert np.isfinite(looked.looked()[0].seen_s).all()
+    corner = place.samples()[0]
+    unknown = (float(corner[0]), float(corner[1]), 0.76)
+    looked.see(picture(stamp_s=2.0), camera(), doubts_W=[unknown])
+    (one,) = looked.looked()
+    assert one.seen_s[0] == -math.inf
+    assert 2.0 in one.seen_s
+    looked.see(picture(stamp_s=3.0), camera())
+    assert set(looked.looked()[0].seen_s) == {3.0}
+
+
+def test_what_stands_under_a_board_leaves_no_doubt_about_the_board() -> None:
+    looked = LookedOver()
+    looked.know((table(),))
+    looked.see(picture(), camera(), doubts_W=[(1.3, 0.0, 0.5), (1.3, 0.0, 1.2)])
+    assert np.isfinite(looked.looked()[0].seen_s).all()

@@ -233,3 +233,16 @@ def test_a_counter_at_the_height_of_the_eyes_is_seen(solver: Solver) -> None:
     plan, sees, _ = look(solver, world_map, place, start=(0.0, 0.0, 0.0))
     assert plan.stance is not None
     assert sees == ["bar"]
+
+
+def test_what_did_not_show_from_afar_is_looked_at_from_nearer(solver: Solver) -> None:
+    """A thing that is too small from 1.6 m is so from a step aside as well."""
+    body, place = table("table", 3.0, 0.0)
+    world_map = map_of(body, bounds_m=(-0.5, -2.5, 6.0, 2.5))
+    spot = Place(id="spot", name="spot", X_WP=place.X_WP, size_m=(0.1, 0.1))
+    middle = spot.X_WP.p[:2]
+    vain = (middle[0] - 1.7, middle[1])
+    plan, sees, _ = look(solver, world_map, spot, start=(*vain, 0.0), vain_m=vain)
+    assert plan.stance is not None
+    assert sees == ["spot"]
+    assert math.dist(plan.stance[:2], middle) < 1.35
