@@ -59,7 +59,8 @@ class Company:
     def know(self, world_map: WorldMap) -> None:
         """Take what stands fast, and who an owner said is where."""
         people = {person.id for person in world_map.people}
-        self._solids = MappedSolids(one for one in world_map.obstacles if one.id not in people)
+        fast = (one for one in world_map.obstacles if one.id not in people)
+        self._solids = MappedSolids(fast, world_map.places)
         for person in world_map.people:
             x_m, y_m, z_m = person.X_WO.p
             unseen = Track(id=person.id, X_WO=SE3((x_m, y_m, z_m)), seen_s=-math.inf)

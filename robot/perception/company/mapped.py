@@ -1,4 +1,7 @@
-"""What the map explains: points in, or at the surface of, what it says stands there."""
+"""What the map explains: points in, or at the surface of, what it says stands there.
+
+What is on a table or between the boards of a shelf is a thing: nobody is where furniture is.
+"""
 
 from __future__ import annotations
 
@@ -7,20 +10,30 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from robot.messages import Obstacle
+from robot.messages import Obstacle, Place
 from robot.se3 import Array
 
 NEAR_M, NEAR_SHARE = 0.10, 0.03
 """How far beside a solid a point of it may be measured: by the pose, and the heading at a range."""
 ABOVE_M, ABOVE_SHARE = 0.07, 0.02
 CHUNK = 4096
+SEAT_M = 0.55
+"""Nobody stands, sits or lies on what is higher, as on beds, sofas and chairs. A tea box in a
+bookcase was somebody who stood in it, and the hand that reached for it waited for them."""
+OVER_M, WITHIN_M = 0.05, 0.02
+"""What is over a surface: no lower than that below it, and so far inside its edges."""
 
 
 class MappedSolids:
-    """The solids of a map as upright boxes."""
+    """The solids of a map as upright boxes, and what of it people put things on."""
 
-    def __init__(self, obstacles: Iterable[Obstacle] = ()) -> None:
-        """Take the obstacles; people on the map do not stand fast, and are not to be among them."""
+    def __init__(self, obstacles: Iterable[Obstacle] = (), places: Iterable[Place] = ()) -> None:
+        """Take what stands fast.
+
+        Args:
+            obstacles: of the map; people on it do not stand fast, and are not to be among them.
+            places: its surfaces.
+        """
         rows: list[tuple[float, ...]] = []
         for obstacle in obstacles:
             for shape in obstacle.shapes:
@@ -30,6 +43,7 @@ class MappedSolids:
                 yaw_rad = X_WS.yaw_rad
                 rows.append((*X_WS.p, np.cos(yaw_rad), np.sin(yaw_rad), half[0], half[1], high_m))
         self._boxes = np.array(rows, dtype=np.float64).reshape(-1, 8)
+        self._tops = [one for one in places if not one.floor and one.X_WP.p[2] > SEAT_M]
 
     def strange(self, points: Array, ranges_m: Array) -> NDArray[np.bool_]:
         """Which points are of none of them.
@@ -42,6 +56,8 @@ class MappedSolids:
         for begin in range(0, len(points), CHUNK):
             part = slice(begin, begin + CHUNK)
             found[part] = self._strange(points[part], ranges_m[part])
+        for top in self._tops:
+            found &= ~_over(top, points)
         return found
 
     def apart(self, points: Array, margin_m: float) -> NDArray[np.bool_]:
@@ -70,3 +86,11 @@ class MappedSolids:
         low, high = points[:, :2].min(axis=0), points[:, :2].max(axis=0)
         at = self._boxes[:, :2]
         return self._boxes[((at > low - reach_m) & (at < high + reach_m)).all(axis=1)]
+
+
+def _over(top: Place, points: Array) -> NDArray[np.bool_]:
+    """Which points, shape (n, 3), are over a surface."""
+    off = (points - np.array(top.X_WP.p)) @ top.X_WP.rotation()
+    half_x, half_y = 0.5 * top.size_m[0] - WITHIN_M, 0.5 * top.size_m[1] - WITHIN_M
+    over = (np.abs(off[:, 0]) < half_x) & (np.abs(off[:, 1]) < half_y) & (off[:, 2] > -OVER_M)
+    return np.asarray(over, np.bool_)
