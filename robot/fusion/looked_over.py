@@ -30,6 +30,11 @@ DOUBT_M = 0.2
 stands by one at least [m]."""
 DOUBT_ABOVE_M = 0.3
 """Middles of things are no higher above what they stand on [m]."""
+SURELY_M, ENOUGH, TOGETHER_S = 1.2, 1.9, 10.0
+"""Eyes that find things themselves find 97 % of what has 300 pixels in one look, 72 % of what has 40
+(docs/perception.md): a look from so near counts fully, from further away as its pixels are fewer,
+and so many are enough that are no further apart in time. A box on a table that a walking robot
+passed in 1.9 m was in one picture, in which it was not found, and was not looked for there again."""
 EDGE_PX = 1
 """The head still moves when a picture is taken: the outermost pixels are not believed."""
 
@@ -37,12 +42,18 @@ EDGE_PX = 1
 class LookedOver:
     """The surfaces of the map, with the time at which every sample of them was last seen well."""
 
-    def __init__(self) -> None:
-        """Know no surface."""
+    def __init__(self, *, several: bool = False) -> None:
+        """Know no surface.
+
+        Args:
+            several: whether a thing may be missed in one look, so that it takes some.
+        """
+        self._several = several
         self._map: tuple[Place, ...] = ()
         self._places: list[tuple[str, slice]] = []
         self._points_W: Array = np.zeros((0, 3))
         self._seen_s: Array = np.zeros(0)
+        self._looks, self._last_s = np.zeros(0), np.zeros(0)
 
     def know(self, places: tuple[Place, ...]) -> None:
         """Take the surfaces of a map; what was seen of those known by the same id is kept."""
@@ -63,6 +74,7 @@ class LookedOver:
             seen.append(np.array(kept))
             count += len(samples)
         self._points_W, self._seen_s = np.concatenate(points), np.concatenate(seen)
+        self._looks, self._last_s = np.zeros(count), np.full(count, -math.inf)
 
     def see(self, image: DepthImage, X_WC: SE3, *, doubts_W: Sequence[Vector3] = ()) -> None:
         """Take one depth image.
@@ -85,7 +97,17 @@ class LookedOver:
         well &= _in_plain_view(image, X_WC, points_W + np.array([0.0, 0.0, ABOVE_M]))
         for doubt in doubts_W:
             well &= ~_by(points_W, doubt)
-        self._seen_s[near[well]] = image.stamp_s
+        seen = near[well]
+        if self._several:
+            seen = seen[self._enough(seen, np.linalg.norm(off[well], axis=1), image.stamp_s)]
+        self._seen_s[seen] = image.stamp_s
+
+    def _enough(self, rows: NDArray[np.intp], ranges_m: Array, now_s: float) -> NDArray[np.bool_]:
+        """Which points have been looked at enough, with one more look from so far away."""
+        self._looks[rows[now_s - self._last_s[rows] > TOGETHER_S]] = 0.0
+        self._looks[rows] += np.minimum(1.0, (SURELY_M / ranges_m) ** 2)
+        self._last_s[rows] = now_s
+        return self._looks[rows] >= ENOUGH
 
     def looked(self) -> tuple[Looked, ...]:
         """Every surface, in the order of the map."""

@@ -108,7 +108,7 @@ class PerceptionNode(Closing):
         self._localiser = Localiser(self._history)
         self._own = _own_place(lidar_map, self._history) if localisation == "lidar" else None
         self._world = WorldModel(camera_range_m=sensors.camera.range_m)
-        self._looked = LookedOver()
+        self._looked = LookedOver(several=eyes == "camera")
         radius_m = description.body_radius_m
         self._unmapped = UnmappedObstacles(body_radius_m=radius_m)
         self._in_view = UnmappedObstacles(

@@ -112,3 +112,23 @@ def test_what_stands_under_a_board_leaves_no_doubt_about_the_board() -> None:
     looked.know((table(),))
     looked.see(picture(), camera(), doubts_W=[(1.3, 0.0, 0.5), (1.3, 0.0, 1.2)])
     assert np.isfinite(looked.looked()[0].seen_s).all()
+
+
+@pytest.mark.parametrize(("x_m", "looks"), [(0.9, 2), (1.6, 4)])
+def test_eyes_that_may_miss_a_thing_look_several_times_and_more_often_from_afar(
+    x_m: float, looks: int
+) -> None:
+    looked = LookedOver(several=True)
+    looked.know((table(x_m),))
+    for k in range(looks):
+        assert set(looked.looked()[0].seen_s) == {-math.inf}
+        looked.see(picture(stamp_s=0.2 * k), camera(0.4))
+    assert np.isfinite(looked.looked()[0].seen_s).any()
+
+
+def test_looks_that_are_far_apart_do_not_add_up() -> None:
+    looked = LookedOver(several=True)
+    looked.know((table(0.9),))
+    for k in range(4):
+        looked.see(picture(stamp_s=20.0 * k), camera())
+    assert set(looked.looked()[0].seen_s) == {-math.inf}
