@@ -31,10 +31,10 @@ stands by one at least [m]."""
 DOUBT_ABOVE_M = 0.3
 """Middles of things are no higher above what they stand on [m]."""
 SURELY_M, ENOUGH, TOGETHER_S = 1.2, 1.9, 10.0
-"""Eyes that find things themselves find 97 % of what has 300 pixels in one look, 72 % of what has 40
+"""Eyes that find things themselves find 99 % of what has 300 pixels in a look, 72 % of what has 40
 (docs/perception.md): a look from so near counts fully, from further away as its pixels are fewer,
 and so many are enough that are no further apart in time. A box on a table that a walking robot
-passed in 1.9 m was in one picture, in which it was not found, and was not looked for there again."""
+passed in 1.9 m was in one picture, was not found in it, and not looked for there again."""
 EDGE_PX = 1
 """The head still moves when a picture is taken: the outermost pixels are not believed."""
 
