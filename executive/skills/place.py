@@ -14,7 +14,7 @@ from executive.skills.holding import Held
 from executive.skills.motions.approach import approach, come_nearer, withdraw
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.fingers import check_grips, open_fingers, set_payload
-from executive.skills.motions.gaze import look_at, see
+from executive.skills.motions.gaze import look_at, see, turn_head
 from executive.skills.motions.past_people import ask_past_people
 from executive.skills.motions.planning import held_in, stance_of
 from executive.skills.motions.reach import move_arm, move_hand, posture_rad
@@ -40,6 +40,8 @@ REPLANS = 1
 ELSEWHERE = ("goal_in_collision", "out_of_reach", "no_path", "planner_timeout")
 MOVE_OVER_COST_PER_M = 0.5
 """Cost of walking to another stance once the robot stands before the place."""
+LOOK_S = 0.5
+"""Two pictures and a half, of 5 a second."""
 PLACED_WITHIN_M = 0.03
 FULL = ("no_free_spot", "goal_in_collision", "out_of_reach", "no_stance")
 """What another board of the same shelf is tried for."""
@@ -166,6 +168,7 @@ class PutDown(ScriptedSkill[PlaceParams]):
             yield from approach(body, plan, what=place.name)
             body.progress = 0.5
             try:
+                yield from self._look_first(info, place, plan)
                 yield from self._lower(info, place, plan, held)
             except GaveUp as end:
                 yield from self._back_off(place, plan, held)
@@ -231,7 +234,7 @@ class PutDown(ScriptedSkill[PlaceParams]):
             place=place,
             side=held.side,
             held=known,
-            around=surroundings(self.body),
+            around=surroundings(self.body, unnamed=True),
             start=stance_of(self.body.X_WS),
             target=self.parameters.X_WO,
             spots=self.parameters.spots,
@@ -239,6 +242,14 @@ class PutDown(ScriptedSkill[PlaceParams]):
             seed=self.body.context.seed + attempt,
         )
         return (yield from ask_past_people(self.body, request, PlacePlan))
+
+    def _look_first(self, info: ObjectInfo, place: Place, plan: PlacePlan) -> Script[None]:
+        """Look at the spot before the hand is over it and hides it: something may have come."""
+        body = self.body
+        body.phase = f"looking at where the {info.name} is to go"
+        yield from turn_head(body, plan.X_WO.p)
+        yield from body.wait(LOOK_S)
+        _check_free(body, info, place, plan)
 
     def _reach_over(self, place: Place, plan: PlacePlan) -> Script[None]:
         """Bring the object above its spot; comes nearer if that is just out of reach."""

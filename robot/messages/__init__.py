@@ -73,6 +73,7 @@ from robot.messages.world_state import (
     PersonInfo,
     Place,
     Track,
+    Unnamed,
     WorldMap,
     WorldState,
 )
@@ -124,6 +125,7 @@ __all__ = [
     "Spoken",
     "Stand",
     "Track",
+    "Unnamed",
     "Walk",
     "WalkTo",
     "WorldMap",

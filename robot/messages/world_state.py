@@ -154,6 +154,19 @@ class Track(msgspec.Struct, frozen=True, kw_only=True):
     posture: str = ""
 
 
+class Unnamed(msgspec.Struct, frozen=True, kw_only=True):
+    """A thing that own eyes see standing somewhere and that they know no name for.
+
+    `words` say what it looks like ("green thing of 9 cm"); `X_WO` is upright, of its middle.
+    """
+
+    id: str
+    words: str
+    X_WO: SE3
+    shape: Shape
+    seen_s: float
+
+
 class WorldState(Message, frozen=True, kw_only=True):
     """The world model: localisation and everything tracked.
 
@@ -164,7 +177,8 @@ class WorldState(Message, frozen=True, kw_only=True):
     `looked` is what of the surfaces has been in view, near enough and with nothing before it.
     `covariance`, row by row, is of the errors of the base's x, y [m] and heading [rad], () where it
     is unknown; `lost` says why the robot does not know where it is, "" while it does. `unsure` is
-    where somebody may be whom no camera has looked at: x and y [m] in W.
+    where somebody may be whom no camera has looked at: x and y [m] in W. `unnamed` stands
+    somewhere, and is none of the tracks.
     """
 
     X_WN: SE3
@@ -179,3 +193,4 @@ class WorldState(Message, frozen=True, kw_only=True):
     covariance: tuple[float, ...] = ()
     lost: str = ""
     unsure: tuple[tuple[float, float], ...] = ()
+    unnamed: tuple[Unnamed, ...] = ()

@@ -28,6 +28,7 @@ from robot.messages import (
     PoseFix,
     Sightings,
     Track,
+    Unnamed,
     WorldMap,
     WorldState,
 )
@@ -116,6 +117,7 @@ class PerceptionNode(Closing):
         )
         self._gaze = Gaze(self._body, bus, take=take) if eyes == "camera" else None
         self._company = _company() if eyes == "camera" else None
+        self._unnamed: tuple[Unnamed, ...] = ()
         self._now_s = self._looked_s = -math.inf
         self._published_s = -math.inf
 
@@ -216,6 +218,7 @@ class PerceptionNode(Closing):
             self._in_view.forget()
             if self._gaze is not None:
                 self._gaze.forget()
+                self._unnamed = ()
             if self._company is not None:
                 self._company.forget()
 
@@ -254,6 +257,7 @@ class PerceptionNode(Closing):
         self._world.see(look.sightings, view.X_WC, None)
         self._world.miss(look.missed)
         self._world.mistake(look.mistaken)
+        self._unnamed = look.unnamed
         self._looked.see(gaze.surfaces(view), view.X_WC, doubts_W=look.doubts)
         if self._company is not None:
             self._company.see_picture(view.image, view.X_WC)
@@ -338,6 +342,7 @@ class PerceptionNode(Closing):
                 covariance=localiser.covariance,
                 lost="" if self._own is None else self._own.lost,
                 unsure=unsure,
+                unnamed=self._unnamed,
             ),
         )
 

@@ -50,6 +50,7 @@ class Puppet:
     """The point of a surface that is never seen."""
     miss_m: float = 0.0
     unmapped: tuple[m.Obstacle, ...] = ()
+    unnamed: tuple[m.Unnamed, ...] = ()
     people: dict[str, SE3] = field(default_factory=dict)
     people_seen: bool = True
     drift_m_s: float = 0.0
@@ -139,6 +140,7 @@ class Puppet:
                 for name, X_WO in self.people.items()
             ),
             unmapped=self.unmapped,
+            unnamed=self.unnamed,
             looked=tuple(
                 m.Looked(place_id=name, seen_s=tuple(seen)) for name, seen in self._looked.items()
             ),

@@ -10,7 +10,7 @@ from executive.skills.motions.gaze import SIGHTINGS, fresh_track, see
 from executive.skills.motions.likelihood import prospects
 from executive.skills.motions.look_over import look_over, walk_to_see
 from executive.skills.motions.script import GaveUp, Script, give_up
-from executive.skills.motions.support import pose_on_support
+from executive.skills.motions.support import pose_on_support, surface_under
 from executive.skills.motions.survey import Survey
 from robot.messages import Track
 from robot.se3 import SE3
@@ -19,6 +19,7 @@ SIGHT_M = 3.0
 """From as near as this it is tried from here first whether an object is where it was."""
 IN_VIEW_S = 2.0
 """What was seen that lately need not be looked for again."""
+MOST_UNNAMED = 3
 FRESH_S = 600.0
 """What was looked over longer ago may hold something else by now."""
 GLIMPSED_S = 0.8
@@ -55,7 +56,7 @@ def find(
     body.context.searched_s[object_id] = body.now_s
     raise give_up(
         "object_not_seen",
-        f"did not find the {name}; {survey.words()}",
+        f"did not find the {name}; {survey.words()}{_without_name(body)}",
         object=object_id,
         looked="everywhere",
     )
@@ -66,6 +67,16 @@ def _look_further(body: Body, survey: Survey, object_id: str) -> Script[_Sightin
     shows = _Sightings(body, object_id)
     yield from look_over(body, survey, shows, in_passing=lambda: shows.enough)
     return shows
+
+
+def _without_name(body: Body) -> str:
+    """What it has seen and cannot name, which may be what it looked for: "; saw a ..."."""
+    seen = [
+        f"a {one.words} on the {place.name}"
+        for one in body.world.unnamed
+        if (place := surface_under(one.X_WO, body.map.places)) is not None
+    ]
+    return f"; has no name for {' and '.join(seen[:MOST_UNNAMED])}" if seen else ""
 
 
 def _survey(body: Body, object_id: str, place_ids: Sequence[str]) -> Survey:

@@ -13,8 +13,8 @@ import msgspec
 import numpy as np
 
 from executive.skills.motions.body_access import Body
-from robot.messages import ObjectInfo, Place, Shape
-from robot.planning.requests import Surroundings
+from robot.messages import ObjectInfo, Place, Shape, Unnamed
+from robot.planning.requests import ObjectPose, Surroundings
 from robot.se3 import SE3, Array
 
 NEAR_M = 0.02
@@ -26,6 +26,8 @@ FROM_AFAR_M = 0.12
 """A camera that is taken to be level when it nods by 1.5 degrees (an IMU that sits askew, in the
 reality `harsh`) sees what is 3 m away 0.08 m too low, and this much from 4.5 m. Nothing else is
 there within that height, so it is taken to be on what is over it."""
+IN_HAND_M = 0.15
+"""What is so near to a thing in a hand is that, seen between fingers."""
 TOUCHING_M = 0.01
 """Two things as near as this are taken to touch: where they stand is known that well."""
 
@@ -130,26 +132,53 @@ def pose_on_support(body: Body, object_id: str, X_WO: SE3) -> SE3:
     return supported(X_WO, body.object_info(object_id), body.map.places)
 
 
-def surroundings(body: Body, *ignored: str) -> Surroundings:
-    """What a plan keeps clear of now; what the hands hold is not in the way."""
+def surroundings(body: Body, *ignored: str, unnamed: bool = False) -> Surroundings:
+    """What a plan keeps clear of now; what the hands hold is not in the way.
+
+    What has no name counts where something is to be put: what is to be taken may have parts that
+    were seen apart from it.
+    """
     held = tuple(held.object_id for held in body.context.holdings.all())
     around = Surroundings.of(body.map, body.world, ignored=(*held, *ignored))
     objects = tuple(
         msgspec.structs.replace(thing, X_WO=pose_on_support(body, thing.id, thing.X_WO))
         for thing in around.objects
     )
+    if unnamed:
+        others = (ObjectPose(id=one.id, X_WO=one.X_WO, shape=one.shape) for one in _unnamed(body))
+        objects = (*objects, *others)
     return msgspec.structs.replace(around, objects=objects)
+
+
+def _unnamed(body: Body) -> tuple[Unnamed, ...]:
+    """What has no name and is not just where the thing in a hand seems to be."""
+    held = [one.object_id for one in body.context.holdings.all()]
+    tracks = [track for name in held if (track := body.track(name)) is not None]
+    at = [track.X_WO.p for track in tracks if track.X_WO is not None]
+    return tuple(
+        one
+        for one in body.world.unnamed
+        if all(math.dist(one.X_WO.p, p_W) > IN_HAND_M for p_W in at)
+    )
 
 
 def occupant(body: Body, info: ObjectInfo, X_WO: SE3) -> ObjectInfo | None:
     """What is believed to stand where an object is to stand, each taken as upright."""
-    for thing in surroundings(body, info.id).objects:
+    unnamed = {one.id: one for one in body.world.unnamed}
+    for thing in surroundings(body, info.id, unnamed=True).objects:
         x_m, y_m, z_m = (thing.X_WO.p[i] - X_WO.p[i] for i in range(3))
         apart_m = _radius_m(thing.shape) + _radius_m(info.shape) + TOUCHING_M
         apart_z_m = 0.5 * (thing.shape.size_m[2] + info.shape.size_m[2])
         if thing.id != info.id and math.hypot(x_m, y_m) < apart_m and abs(z_m) < apart_z_m:
-            return body.object_info(thing.id)
+            other = unnamed.get(thing.id)
+            return body.object_info(thing.id) if other is None else _info(other)
     return None
+
+
+def _info(thing: Unnamed) -> ObjectInfo:
+    return ObjectInfo(
+        id=thing.id, name=thing.words, category="", color="", shape=thing.shape, mass_kg=0.0
+    )
 
 
 def _radius_m(shape: Shape) -> float:

@@ -10,12 +10,22 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from robot.messages import ObjectInfo, Place, RgbdImage, Shape, Sighting, Sightings, WorldMap
+from robot.messages import (
+    ObjectInfo,
+    Place,
+    RgbdImage,
+    Shape,
+    Sighting,
+    Sightings,
+    Unnamed,
+    WorldMap,
+)
 from robot.perception.sight.doubt import doubtful
 from robot.perception.sight.likeness import Knowledge
 from robot.perception.sight.measuring import Measured, is_cut_off, measured
 from robot.perception.sight.recognising import Recogniser
 from robot.perception.sight.tracking import Seen, Tracks
+from robot.perception.sight.unnamed import unnamed
 from robot.perception.things.eyes import Eyes, SeenThing
 from robot.perception.things.inputs import Sight, sight
 from robot.se3 import SE3, Array, Vector3
@@ -46,6 +56,7 @@ class Look(NamedTuple):
             with what that is; where the real one is, nobody has seen.
         things: everything that was measured in it, with the name it was given or "".
         doubts: where something stands that nobody has made out yet [m], in W.
+        unnamed: what stands somewhere without a name.
     """
 
     sightings: Sightings
@@ -53,6 +64,7 @@ class Look(NamedTuple):
     mistaken: dict[str, str]
     things: tuple[tuple[Seen, str], ...]
     doubts: tuple[Vector3, ...] = ()
+    unnamed: tuple[Unnamed, ...] = ()
 
 
 class Seer:
@@ -141,6 +153,7 @@ class Seer:
             mistaken,
             tuple((track, names.get(track.number, "")) for track in seen),
             self._doubts(looked),
+            unnamed(self._tracks.things, names, hands_W),
         )
 
     def _doubts(self, looked: Sequence[SeenThing]) -> tuple[Vector3, ...]:

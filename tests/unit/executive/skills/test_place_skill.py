@@ -5,10 +5,11 @@ import math
 import pytest
 from msgspec.structs import replace
 
+from executive.skills.motions.support import occupant
 from executive.skills.pick import PickParams
 from executive.skills.place import PlaceParams, PutDown
 from robot.failures import failure
-from robot.messages import Grip, MoveHand
+from robot.messages import Grip, MoveHand, Unnamed
 from robot.physics import GRAVITY_M_S2
 from robot.planning.requests import ArmRequest, PlaceRequest
 from robot.se3 import SE3
@@ -269,6 +270,39 @@ def test_what_has_come_to_stand_there_is_not_pressed_on(stage, off_m):
     assert report.status == "succeeded", report
     assert len(plans) == 2
     assert stage.puppet.things["cup"].X_WO.p[1] == pytest.approx(2.2, abs=0.03)
+
+
+def test_what_has_come_to_stand_there_and_has_no_name_is_seen_before_the_hand_is_over_it(stage):
+    place, plans = stage.planner._place, []
+
+    def elsewhere(request):
+        plans.append(request)
+        return place(replace(request, target=SE3((2.0, 2.5 - 0.3 * (len(plans) - 1), 0.75))))
+
+    stage.planner._place = elsewhere
+    stage.run(ON_COUNTER, until_phase="stepping up")
+    X_WO, cup = SE3((2.03, 2.5, TABLE_M + 0.05)), stage.puppet.world_map.objects[0]
+    unknown = Unnamed(id="unnamed_4", words="blue thing of 10 cm", X_WO=X_WO, shape=cup.shape,
+                      seen_s=stage.puppet.time_s)  # fmt: skip
+    stage.puppet.unnamed = (unknown,)
+    while (report := stage.skill.step(stage.puppet.time_s)).status == "running":
+        assert not (len(plans) == 1 and stage.skill.body.phase.startswith("reaching over"))
+        stage.puppet.tick()
+    assert report.status == "succeeded", report
+    assert len(plans) == 2
+    assert "unnamed_4" in {thing.id for thing in plans[1].around.objects}
+    assert stage.puppet.things["cup"].X_WO.p[1] == pytest.approx(2.2, abs=0.03)
+
+
+def test_what_seems_to_be_in_the_hand_without_a_name_is_what_it_holds(stage):
+    stage.run(ON_COUNTER, until_phase="stepping up")
+    cup = stage.puppet.things["cup"]
+    stage.puppet.unnamed = (
+        Unnamed(id="unnamed_4", words="red thing of 10 cm", X_WO=cup.X_WO, seen_s=0.0,
+                shape=stage.puppet.world_map.objects[0].shape),
+    )  # fmt: skip
+    asked = occupant(stage.skill.body, stage.puppet.world_map.objects[0], cup.X_WO)
+    assert asked is None
 
 
 def test_what_stands_beside_it_is_no_matter(stage):

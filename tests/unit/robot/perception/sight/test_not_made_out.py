@@ -7,6 +7,7 @@ from robot.messages import ObjectInfo, Place, RgbdImage, Shape, WorldMap
 from robot.perception.sight.doubt import CLEAR, WELL_ENOUGH, doubtful
 from robot.perception.sight.seer import Seer
 from robot.perception.sight.tracking import Tracks
+from robot.perception.sight.unnamed import unnamed
 from robot.perception.things.eyes import SeenThing
 from robot.se3 import SE3
 from tests.fakes.things_in_view import CLASSES, SURE, measured, picture_of
@@ -85,3 +86,21 @@ def test_a_look_tells_where_something_is_that_it_has_no_name_for(rows: slice, co
     look = seer.look(image, X_WC, own=own, held={})
     ((x, _, z),) = look.doubts
     assert (x, z) == pytest.approx((1.03, 0.76), abs=0.04)
+
+
+def test_what_has_no_name_is_told_as_it_looks_but_no_part_of_a_named_thing_is():
+    tracks = Tracks()
+    alone, named = measured((1.0, 0.5, 0.76), colours=("green",)), measured(AT, colours=("red",))
+    part = measured((1.0, 0.07, 0.76), colours=("red",))
+    for k in range(3):
+        tracks.add([alone, named, part], 0.2 * k)
+    assert len(tracks.things) == 3
+    (one,) = unnamed(tracks.things, {2: "red_cup"}, ())
+    assert one.words == "green thing of 10 cm"
+    assert one.X_WO.p == pytest.approx((1.0, 0.5, 0.76), abs=0.01)
+    assert not unnamed(tracks.things, {2: "red_cup"}, [(1.0, 0.45, 0.8)])
+
+
+def test_a_glimpse_from_afar_is_nothing_yet():
+    assert not unnamed(seen_from(1.8, looks=9).things, {}, ())
+    assert not unnamed(seen_from(0.8, looks=1).things, {}, ())
