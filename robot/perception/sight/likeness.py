@@ -54,6 +54,9 @@ FITS, PER_OCTAVE, LEAST_SIZE = 0.5, 4.0, -4.0
 away, and at most."""
 LEAST_ERROR = 0.06
 """A share of a size that eyes are wrong by at least."""
+NARROW, USUAL_SPREAD = 1.0, 0.22
+"""What has the size that things of a kind have is the likelier of that kind the less they vary:
+cups are of nearly one size, filters of any."""
 MOST_FORM = 2.5
 """What a round box, or a cup with corners, takes away at most."""
 MARGIN_M = 0.015
@@ -176,8 +179,19 @@ def _size(track: Seen, category: str) -> float:
         (high_m, known.size_m[2], known.vary[1]),
     ):
         error = max(LEAST_ERROR, track.size_sigma_m / max(seen_m, 1e-3))
-        found -= 0.5 * (math.log(seen_m / told_m) / math.hypot(vary, error)) ** 2
+        spread = math.hypot(vary, error)
+        found -= 0.5 * (math.log(seen_m / told_m) / spread) ** 2
+        found -= NARROW * math.log(spread / USUAL_SPREAD)
     return max(found, LEAST_SIZE)
+
+
+def spread_malus(category: str) -> float:
+    """What the sizes of a kind take away from all that fits it, as they vary; 0 at the most."""
+    known = usual(category)
+    if known is UNKNOWN_THING:
+        return 0.0
+    spreads = (math.hypot(vary, LEAST_ERROR) for vary in known.vary)
+    return min(0.0, -NARROW * sum(math.log(spread / USUAL_SPREAD) for spread in spreads))
 
 
 def _form(track: Seen, category: str) -> float:

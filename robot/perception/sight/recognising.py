@@ -18,7 +18,7 @@ from scipy.optimize import linear_sum_assignment
 
 from robot.messages import ObjectInfo, Place
 from robot.perception.sight.belonging import belonging
-from robot.perception.sight.likeness import Knowledge, likeness, other_colour
+from robot.perception.sight.likeness import Knowledge, likeness, other_colour, spread_malus
 from robot.perception.sight.tracking import Seen
 
 ENOUGH, ENOUGH_AT_ONCE = 0.9, 2.2
@@ -83,7 +83,7 @@ class Recogniser:
             [[STAYS * (self._number.get(info.id) == track.number) for track in tracks]
              for info in self._told]
         )  # fmt: skip
-        keeps = (stays > 0.0) & (fits > LEAST)
+        keeps = (stays > 0.0) & (fits > self._least()[:, None])
         chosen, _ = _best(np.where(keeps, np.maximum(fits + stays, NAMED + HARDLY), fits + stays))
         found: dict[str, Seen] = {}
         for row, info in enumerate(self._told):
@@ -113,13 +113,17 @@ class Recogniser:
     ) -> bool:
         column = chosen[row]
         if stays[row, column] > 0.0:
-            return bool(fits[row, column] > LEAST)
+            return bool(fits[row, column] > self._least()[row])
         if fits[row, column] < ENOUGH:
             return False
         free = [k for k in range(fits.shape[1]) if k not in set(chosen.values())]
         if any(fits[row, column] - fits[row, k] <= CLEARER for k in free):
             return False
         return self._else(fits, row, column) > CLEARER
+
+    def _least(self) -> np.ndarray:
+        """What each told thing's name is taken away below, whatever its kind's sizes do."""
+        return np.array([LEAST + spread_malus(info.category) for info in self._told])
 
     def _else(self, worth: np.ndarray, row: int, column: int) -> float:
         """How much worse the best names are with which a thing is not the told one.

@@ -57,6 +57,14 @@ def test_what_two_told_things_fit_as_well_gets_no_name():
     assert names([plain()], jar, tin, looks=8) == {}
 
 
+def test_of_two_kinds_that_fit_the_one_of_nearly_one_size_is_the_likelier() -> None:
+    """The coffee cup on the workbench had no name, as an air filter may have any size."""
+    cup, any_size = told("coffee", "cup", "white"), told("filter", "filter", "white")
+    usual_cup = plain(colour="white", size_m=(0.073, 0.073, 0.095))
+    assert names([usual_cup], cup, any_size) == {"coffee": HERE}
+    assert "coffee" not in names([plain(colour="white", size_m=(0.1, 0.1, 0.15))], cup, any_size)
+
+
 def test_two_that_were_told_alike_may_change_places():
     one, other = told("one", "can"), told("other", "can")
     found = names([plain(), plain(THERE)], one, other)
