@@ -48,8 +48,13 @@ def looked_at(thing: str, *, away_m: float = 0.6, up_m: float = 0.4, hand: bool 
     return image, SE3.from_rotation(R, eye), pixels, hidden
 
 
-def taken(thing: str, places=(TABLE,), *, piece: float = 1.0, **how):
-    """What is measured of a thing, of which only the lowest rows were found if it is a piece."""
+def taken(
+    thing: str, places=(TABLE,), *, piece: float = 1.0, lower_m=0.0, tilt_rad=0.0, **how
+):
+    """What is measured of a thing, of which only the lowest rows were found if it is a piece.
+
+    The robot may hold its camera to be lower than it is, and to look further down.
+    """
     image, X_WC, pixels, hidden = looked_at(thing, **how)
     rows = np.flatnonzero(pixels.any(axis=1))
     pixels[: rows[-1] - round(piece * len(rows))] = False
@@ -57,7 +62,8 @@ def taken(thing: str, places=(TABLE,), *, piece: float = 1.0, **how):
     image = msgspec.structs.replace(
         image, focal_px=(PINHOLE.focal_px, PINHOLE.focal_px), centre_px=middle
     )
-    view = sight(image, X_WC)
+    wrong = SE3.from_rpy(0.0, tilt_rad, 0.0, (0.0, 0.0, 0.0)).rotation() @ X_WC.rotation()
+    view = sight(image, SE3.from_rotation(wrong, np.array(X_WC.p) - [0.0, 0.0, lower_m]))
     assert view is not None
     vague = SeenThing(
         name=Name("", "", 0.0), chances=np.ones(3) / 3, colours=("red",),
@@ -75,6 +81,18 @@ def test_a_cup_is_where_it_is_and_as_large_as_it_is(away_m, up_m):
     assert cup.width_m == pytest.approx(0.07, abs=0.006)
     assert cup.size_m[2] == pytest.approx(0.10, abs=0.008)
     assert cup.foot_m == pytest.approx(0.7)
+
+
+def test_a_cup_further_away_stands_on_its_table_for_a_robot_that_errs_in_its_tilt():
+    straight = taken("cup", away_m=1.35, up_m=0.35)
+    assert straight is not None
+    cup = taken("cup", away_m=1.35, up_m=0.35, lower_m=0.02, tilt_rad=0.012)
+    assert cup is not None and cup.foot_m == pytest.approx(0.7)
+    assert np.linalg.norm(cup.p_W[:2] - straight.p_W[:2]) < 0.05
+
+
+def test_what_is_seen_through_a_table_top_still_stands_on_nothing():
+    assert taken("cup", away_m=1.35, up_m=0.35, lower_m=0.1) is None
 
 
 def test_a_box_has_its_two_sides_and_its_turn():
