@@ -17,7 +17,6 @@ from executive.frontends.motors import commands
 from robot.bringup import motor_families
 from robot.clock import SimulatedClock
 from robot.closing import Closing
-from robot.drivers.motors.can.emulated import INTERFACE
 from robot.drivers.registry import CAN, DYNAMIXEL, ETHERNET, PWM
 from sim.devices import direct, ethernet_bench, families, pwm_bench, servo_bench
 from sim.simulation import Simulation
@@ -59,8 +58,6 @@ class Workbench:
 
 class _Buses(Closing):
     """Lines that no other test claims."""
-
-    interface = INTERFACE
 
     def __init__(self, channels: Mapping[str, str]) -> None:
         self.channels = channels
