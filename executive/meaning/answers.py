@@ -75,6 +75,22 @@ def count(
     return words
 
 
+def things(
+    infos: Iterable[ObjectInfo], places: Iterable[Place], *, where: str, of: WorldMap
+) -> Bound:
+    """Says which of the objects have been seen on some places of a map, and what was not seen."""
+    surfaces, names = tuple(places), {info.id: info.full_name for info in infos}
+
+    def words(board: Blackboard) -> SayParams:
+        seen = {track.id for track in _seen(board, frozenset(names), surfaces)}
+        told = listing([name for id, name in names.items() if id in seen], "and") or "nothing"
+        missed = not_looked_over(board, of, surfaces) if len(surfaces) > 1 else ""
+        more = f" I have not seen all of {missed}." if missed else ""
+        return SayParams(text=f"I see {told}{where}.{more}")
+
+    return words
+
+
 def count_everywhere(ids: frozenset[str], world_map: WorldMap, *, noun: Noun) -> Bound:
     """Says how many of the objects have been seen at all, and where nobody has looked."""
 

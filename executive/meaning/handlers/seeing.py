@@ -31,7 +31,7 @@ from intents import goals
 from robot.messages import ObjectInfo
 
 AROUND, BEHIND = "around", "behind"
-LOCATION = "location"
+NAME, LOCATION = "name", "location"
 _SIDES: dict[str, Side] = {side: side for side in SIDES}
 
 
@@ -112,11 +112,15 @@ def find(goal: goals.Find, scene: Scene) -> Part:
 
 
 def tell(goal: goals.Tell, scene: Scene) -> Part:
-    """Find a thing, then say where it is, to somebody's face if to whom.
+    """Find a thing and say where it is, or look over a place and say what is there.
+
+    To somebody's face if to whom.
 
     Raises:
         CannotMean: something else is to be found out.
     """
+    if goal.object is not None and goal.property == NAME and goal.object.at is not None:
+        return _tell_what_is_there(goal.object, goal, scene)
     if goal.object is None or goal.property != LOCATION:
         raise cannot("unsupported", "this robot cannot find that out yet")
     info = scene.object(goal.object)
@@ -125,6 +129,23 @@ def tell(goal: goals.Tell, scene: Scene) -> Part:
     )
     parts = (search(info, goal.object, scene), *to_their_face(goal.to, scene), where)
     return Series(name=f"tell where {info.full_name} is", parts=parts)
+
+
+def _tell_what_is_there(query: goals.ObjectQuery, goal: goals.Tell, scene: Scene) -> Part:
+    """Look over a place, then say what of that kind, or at all, is there."""
+    if query.relation is not None:
+        raise cannot("unsupported", "this robot cannot find that out yet",
+                     suggestion="ask what is on a piece of furniture, or in a room")  # fmt: skip
+    places = to_look_over(scene.places(query.at or ""), scene)
+    looks = inspect(f"look over the {query.at}", query.at, scene)
+    if len(places) > 1:  # what is higher than the eyes hides nothing of the rest
+        looks = tuple(tolerant(look, ["place_not_seen"]) for look in looks)
+    where = _where(query, scene)
+    fitting = scene.fitting(replace(query, count="all"))
+    said = answers.things(fitting, places, where=f" {where}", of=scene.knowledge.map)
+    told = to_their_face(goal.to, scene)
+    name = f"tell what is {where}"
+    return Series(name=name, parts=(*looks, *told, Errand(name="say what is there", params=said)))
 
 
 def count(goal: goals.Count, scene: Scene) -> Part:

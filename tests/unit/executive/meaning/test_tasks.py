@@ -399,3 +399,28 @@ def test_the_place_that_was_said_is_looked_at_before_it_is_denied():
     assert isinstance(outcome, Understood)
     (there,) = [part for _, part in walk(outcome.task) if isinstance(part, Settle)]
     assert [look.name for look in there.looks] == ["look over the table"]
+
+
+@pytest.mark.parametrize(
+    ("said", "expected"),
+    [
+        ("what is on the table?", "look over the table"),
+        ("what's on the lower shelf", "look over the lower shelf"),
+    ],
+)
+def test_what_is_at_a_place_is_looked_for_there(said: str, expected: str):
+    assert steps(said) == [expected, "say what is there"]
+
+
+def test_what_was_seen_there_is_told_by_name_and_nothing_else():
+    outcome = request("what is on the table?", WHERE)
+    assert isinstance(outcome, Understood)
+    *_, say = errands(outcome.task)
+    assert callable(say.params)
+    told = say.params(with_things_on_the_table({"cup_red": 0.1, "cup_blue": -0.1})).text
+    assert told == "I see the red cup and the blue cup on the table."
+    assert say.params(with_things_on_the_table({})).text == "I see nothing on the table."
+
+
+def test_what_else_a_thing_is_like_is_refused_still():
+    assert refusal("how heavy is the bottle?").outcome == "unsupported"
