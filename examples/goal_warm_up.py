@@ -21,12 +21,14 @@ class WarmUp(_Goal, frozen=True, kw_only=True):
     duration_s: float | None = None
 
 
-# intents/english/words/verbs.py: its sense and the spellings of it, a row of `SPELLINGS`.
-SENSE, SPELLINGS = "warm_up", ("warm up", "limber up")
+# intents/english/words/verbs.py: its sense and the spellings of it, separated by commas, as a row of
+# `SPELLINGS` has them: "warm_up": "warm up,limber up".
+SENSE, SPELLINGS = "warm_up", "warm up,limber up"
 
 
-# intents/english/frames/body.py: what the verb makes of its complements; a row of `FRAMES` in
-# intents/english/frames/__init__.py.
+# intents/english/frames/postures.py, or a new file beside it: what the verb makes of its
+# complements; imported and made a row of `FRAMES` in intents/english/frames/__init__.py:
+# "warm_up": postures.warm_up.
 def warm_up(clause: Clause, scope: Scope) -> list[Goal]:
     """Warm up; limber up for five seconds."""
     slots = Slots(clause, scope)

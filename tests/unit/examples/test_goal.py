@@ -20,7 +20,7 @@ NAMES = Vocabulary.of(objects=["cup"], places=["table"])
 
 @pytest.fixture
 def rows(monkeypatch: pytest.MonkeyPatch) -> None:
-    phrases = [tuple(spelling.split()) for spelling in SPELLINGS]
+    phrases = [tuple(spelling.split()) for spelling in SPELLINGS.split(",")]
     for phrase in phrases:
         monkeypatch.setitem(verbs.SENSES, phrase, (SENSE,))
     first = {phrase[0] for phrase in phrases}
