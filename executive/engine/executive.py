@@ -302,6 +302,11 @@ class Executive:
         """Whether nothing goes on before somebody who is there asks for something."""
         return self.attended and not self._requests and self.state == "paused"
 
+    @property
+    def awaits_help(self) -> bool:
+        """Whether a person is asked for help, and has not answered."""
+        return bool(self.question) and not self._requests and self.stage.help.answer is None
+
     # --- the loop's side ---
 
     def tick(self, now_s: float) -> None:

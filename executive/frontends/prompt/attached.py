@@ -79,9 +79,14 @@ class Attached:
         """Let a fault happen with the next tick; `executive.runs.faults.verify` it first."""
         self._faults.append(fault)
 
-    def wait(self, *, poll_s: float = 0.02) -> None:
-        """Return when nothing is left to do, the robot is gone, or waits to be told to go on."""
+    def wait(self, *, poll_s: float = 0.02, asked: bool = False) -> None:
+        """Return when nothing is left to do, the robot is gone, or waits to be told to go on.
+
+        With `asked` also when it asks a person for help.
+        """
         while self.busy and self.lost is None and not self.executive.awaits_operator:
+            if asked and self.executive.awaits_help:
+                return
             time.sleep(poll_s)
 
     def _look(self) -> None:

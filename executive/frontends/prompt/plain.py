@@ -20,6 +20,9 @@ def work_off(shell: Spoken, lines: Iterable[str], *, stops: int | None = None) -
 
     The end of the lines is nobody who leaves: what is open by then is done first.
 
+    Where the robot asks for help, the next line may answer it. If that is about something else, or
+    there is none, nobody answers, and what asked is given up.
+
     Ctrl-C, SIGTERM and SIGHUP are each a wish to leave, also after the robot has come to a stand
     for it. A stop that is none of the lines (on a page, in another terminal) is about all that
     follow. Returns whether no line that came was left undone for that.
@@ -43,14 +46,18 @@ def work_off(shell: Spoken, lines: Iterable[str], *, stops: int | None = None) -
             return _left_out(shell, text, "the robot was told to stop")
         shell.out(f"> {text}")
         own = brake.is_cry(text) or text.startswith("estop")
+        while not own and shell.unhelped(text):
+            shell.robot.wait(asked=True)
         shell.line(text)
-        shell.robot.wait()
+        shell.robot.wait(asked=True)
         if own:
             stops = brake.stops
         if shell.leaving or shell.gone:
             break
     else:
-        shell.robot.wait()
+        shell.robot.wait(asked=True)
+        while shell.unhelped():
+            shell.robot.wait(asked=True)
     if shell.gone:
         shell.out(shell.gone)
     return True

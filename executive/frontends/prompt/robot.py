@@ -88,8 +88,11 @@ class AtWork(Protocol):
         """Let a fault happen with the next tick; `executive.runs.faults.verify` it first."""
         ...
 
-    def wait(self, *, poll_s: float = 0.02) -> None:
-        """Return when nothing is left to do, the robot is gone, or waits to be told to go on."""
+    def wait(self, *, poll_s: float = 0.02, asked: bool = False) -> None:
+        """Return when nothing is left to do, the robot is gone, or waits to be told to go on.
+
+        With `asked` also when it asks a person for help.
+        """
         ...
 
 
@@ -201,10 +204,13 @@ class Robot(Closing):
         """Let a fault happen with the next tick; `executive.runs.faults.verify` it first."""
         self._faults.append(fault)
 
-    def wait(self, *, poll_s: float = 0.02) -> None:
-        """Return when nothing is left to do, the robot is gone, or waits to be told to go on."""
+    def wait(self, *, poll_s: float = 0.02, asked: bool = False) -> None:
+        """Return when nothing is left to do, the robot is gone, or waits to be told to go on.
+
+        With `asked` also when it asks a person for help.
+        """
         while self.busy and self._thread.is_alive() and self.lost is None:
-            if self.executive.awaits_operator:
+            if self.executive.awaits_operator or (asked and self.executive.awaits_help):
                 return
             self._leaving.wait(poll_s)
 

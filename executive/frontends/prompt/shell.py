@@ -10,11 +10,12 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Generator, Iterable
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from executive.behaviours.ask import ANSWERS, Answer, answer_of
+from executive.engine.job_book import JobError
 from executive.engine.jobs import Job
 from executive.frontends.emergency import AT_THE_MACHINE, AT_THE_ROBOT, emergency, plain, undoes
 from executive.frontends.prompt.answering import Answering, Out
@@ -185,6 +186,16 @@ class Shell(Answering):
         if answer is not None:
             self.robot.executive.answer(answer)
         return answer is not None
+
+    def unhelped(self, text: str = "") -> bool:
+        """Give up where a job asks for help, unless a line answers it; whether it was given up."""
+        executive = self.robot.executive
+        if not executive.awaits_help or self._helped(text.casefold().strip(" .!")) is not None:
+            return False
+        self.out("Nobody answers, so I give up.")
+        with suppress(JobError):  # it may have ended meanwhile
+            executive.answer("give up")
+        return True
 
     @property
     def gone(self) -> str:

@@ -43,8 +43,11 @@ class Seen(Protocol):
         """Whether a job is under way or waits."""
         ...
 
-    def wait(self) -> None:
-        """Return when nothing is left to do, the robot is gone, or waits to be told to go on."""
+    def wait(self, *, asked: bool = False) -> None:
+        """Return when nothing is left to do, the robot is gone, or waits to be told to go on.
+
+        With `asked` also when it asks a person for help.
+        """
         ...
 
 
@@ -103,6 +106,10 @@ class Spoken(Protocol):
 
     def line(self, text: str, *, stops: int | None = None) -> None:
         """Do what a line says that was typed when `stops` was so much."""
+        ...
+
+    def unhelped(self, text: str = "") -> bool:
+        """Give up where a job asks for help, unless a line answers it; whether it was given up."""
         ...
 
 

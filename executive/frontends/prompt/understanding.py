@@ -79,7 +79,7 @@ class Understanding:
             self._people.refuse_stopped(text)
             return None
         if dialogue.dropped and not self._brake.halt.on:
-            self._people.out(f"I ask no more: {dialogue.dropped}")
+            self._people.out(f"Dropped, and nothing is done about it: “{dialogue.dropped}”")
         understood = self._heed(text, turn, state, answers=answers, steers=steers)
         still = dialogue.question
         if understood and steers and still is not None and still.goals == (Resume(),):

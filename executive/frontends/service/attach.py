@@ -91,7 +91,7 @@ class RemoteRobot:
         self.view = View()
         self.busy = False
 
-    def wait(self) -> None:
+    def wait(self, *, asked: bool = False) -> None:  # noqa: ARG002
         """A line that waits for its jobs has done so already."""
 
 
@@ -354,6 +354,10 @@ class RemoteShell:
         """Halt a robot at work if a line is a cry that ends nothing."""
         at_work = self.at_work if busy is None else busy
         return at_work and is_halt(text) and self.send(m.Halt(text=text[: m.MAX_TEXT]))
+
+    def unhelped(self, text: str = "") -> bool:  # noqa: ARG002
+        """Whoever is at the robot may help it."""
+        return False
 
     def line(self, text: str, *, stops: int | None = None) -> None:
         """Hand a line on, and wait until it is understood."""
