@@ -8,7 +8,7 @@ import math
 import socket
 import threading
 import time
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import msgspec
@@ -18,7 +18,8 @@ import pytest
 from PIL import Image
 
 from executive.frontends.composition_root import REALITY
-from executive.frontends.console.address import HOST
+from executive.frontends.console import beside
+from executive.frontends.console.address import HOST, url
 from executive.frontends.console.desk import Desk
 from executive.frontends.console.server import PageServer
 from executive.frontends.recorded_place import scene_of
@@ -215,6 +216,31 @@ def test_a_page_without_the_token_says_so_and_shows_nothing(browser, shell):
         page = browser.page(console.url.partition("#")[0])
         page.wait("document.querySelector('#banner').innerText.includes('no longer valid')")
         assert page.eval("document.querySelector('#stop').hidden")
+
+
+@pytest.mark.parametrize("stopped", [True, False])
+def test_a_run_that_has_ended_is_told_and_is_no_alarm(browser, tmp_path, stopped):
+    folder = tmp_path / "run"
+    run_folder.claim(folder)
+    with ExitStack() as stack:
+        stack.enter_context(beside.shown(folder, wanted=True))
+        with puppet_shell(folder, []) as shell:
+            address = beside._kept(folder)
+            assert address is not None
+            page = browser.page(url(address))
+            page.wait("page.live")
+            for line in (ERRAND, "yes") if stopped else ("wave",):
+                shell.line(line)
+            page.wait("parts.jobs.some(([, , state]) => state != 'waiting')")
+            if stopped:
+                shell.stop("STOP was pressed on the page")
+            shell.robot.wait()
+    page.wait("!page.linked")
+    banner = page.text("#banner")
+    assert "The run is over, and nothing moves any more: " in banner
+    assert ("it was done" in banner) is not stopped
+    assert "No connection" not in banner
+    assert page.eval("document.querySelector('#stop').hidden")
 
 
 def test_the_picture_stands_as_mujoco_has_it(browser, shell):

@@ -33,8 +33,11 @@ async def _serve(console: PageServer, listening: socket.socket) -> None:
         following = asyncio.create_task(console.follow())
         waiting = asyncio.create_task(over.wait())
         await asyncio.wait({following, waiting}, return_when=asyncio.FIRST_COMPLETED)
+        if not following.done():
+            following.cancel()
+            await console.follow_to_the_end()
         await asyncio.sleep(LAST_WORDS_S)
-        if following.done():
+        if following.done() and not following.cancelled():
             following.result()  # a mistake, told by the log
     os._exit(0)  # a scene that is still being made is not waited for
 

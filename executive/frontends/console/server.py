@@ -93,7 +93,7 @@ class Show:
         self.parts: dict[str, bytes] = {}
         self.live = self.following.live
         self._make_scene = make_scene
-        self._told_s = 0.0
+        self._told_s, self._untold = 0.0, True
         self._making: asyncio.Task[None] | None = None
         self._steering = asyncio.create_task(self.steering.work())
 
@@ -101,18 +101,30 @@ class Show:
         """Read on, and work out what is new."""
         if self._making is None and self.following.run.events:
             self._making = asyncio.create_task(self._make())
-        read = False
         while self.following.read():
-            read = True
+            self._untold = True
             await asyncio.sleep(0)  # others are told meanwhile
-        if (read or not self.parts) and now_s >= self._told_s + TELL_S:
+        if now_s >= self._told_s + TELL_S:
             self._told_s = now_s
-            self.live = self.following.live
+            self._tell()
+
+    async def look_last(self) -> None:
+        """Read what is left, and work out how it ended: there is no time to look again.
+
+        Who has run it still holds its folder, and only has to leave.
+        """
+        while self.following.read():
+            self._untold = True
+            await asyncio.sleep(0)
+        self._tell()
+        self.live = False
+
+    def _tell(self) -> None:
+        self.live = self.following.live
+        if self._untold:
+            self._untold = False
             parts = told(self.following.run) | {"left_out": self.following.left_out}
             self.parts = {key: _json(part) for key, part in parts.items()}
-        elif now_s >= self._told_s + 1.0:
-            self._told_s = now_s
-            self.live = self.following.live
 
     async def _make(self) -> None:
         made = await asyncio.to_thread(self._make_scene, self.following.run.about)
@@ -194,6 +206,12 @@ class PageServer:
                 if self.show is not None:
                     await self.show.look(begun_s)
             await asyncio.sleep(max(0.0, begun_s + PERIOD_S - clock()))
+
+    async def follow_to_the_end(self) -> None:
+        """Read the rest of the run that is shown, which is over; pages are told in `PERIOD_S`."""
+        with suppress(OSError, RobotError):
+            if self.show is not None:
+                await self.show.look_last()
 
     def _choose(self) -> None:
         folder = self._find()

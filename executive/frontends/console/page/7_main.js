@@ -98,6 +98,9 @@ function play(on) {
   panels.time();
 }
 
+// How a run ended, as a part of a sentence; empty where that is not known.
+const ended = ({ ending, phase }) => !ending || phase !== "done" ? "" : `, and nothing moves any more: ${ending.code === "done" ? "it was done" : ending.cause || ending.code}`;
+
 const ESTOP = "emergency stop"; // as health calls it
 // --- panels, at most a few times a second ---
 
@@ -139,7 +142,7 @@ const panels = {
     const banner = $("banner");
     let text = "", kind = "";
     if (link && link.refused) text = "This address is no longer valid: open the one that the terminal shows.";
-    else if (!page.linked && page.live === false) [text, kind] = ["The run is over, and its page is no longer served: `humanoid console` in a terminal opens it again.", "over"];
+    else if (!page.linked && page.live === false) [text, kind] = [`The run is over${ended(head)}. Its page is no longer served: \`humanoid console\` in a terminal opens it again.`, "over"];
     else if (!page.linked) text = "No connection to the robot's computer: STOP does not reach it from here. Use Ctrl-C in its terminal. Trying again ...";
     else if (head.help && page.live) [text, kind] = [`The robot asks for help: ${head.help}`, "calm"];
     else if (page.live === false && head.ending && head.ending.code !== "done") {
