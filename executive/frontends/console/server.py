@@ -109,13 +109,9 @@ class Show:
             self._tell()
 
     async def look_last(self) -> None:
-        """Read what is left, and work out how it ended: there is no time to look again.
-
-        Who has run it still holds its folder, and only has to leave.
-        """
+        """Read the rest of a run that is over, though who has run it holds its folder still."""
         while self.following.read():
             self._untold = True
-            await asyncio.sleep(0)
         self._tell()
         self.live = False
 
@@ -208,7 +204,7 @@ class PageServer:
             await asyncio.sleep(max(0.0, begun_s + PERIOD_S - clock()))
 
     async def follow_to_the_end(self) -> None:
-        """Read the rest of the run that is shown, which is over; pages are told in `PERIOD_S`."""
+        """Read the rest of the run that is shown, which is over."""
         with suppress(OSError, RobotError):
             if self.show is not None:
                 await self.show.look_last()
