@@ -123,6 +123,16 @@ def test_a_question_is_open_until_it_is_answered(shell: Shell):
     assert shell.robot.executive.jobs[-1].state == "cancelled"
 
 
+def test_a_question_that_is_dropped_is_told_as_no_question(shell: Shell):
+    shell.line("pick up the cup")
+    asked = shell.dialogue.question
+    assert asked is not None
+    shell.line("say hello")
+    shell.robot.wait()
+    assert f"Dropped, and nothing is done about it: “{asked.question}”" in shell.out
+    assert shell.dialogue.question is None
+
+
 def test_two_open_questions_are_both_answered(shell: Shell):
     shell.line("look at the cup")
     shell.line("where are you?")

@@ -13,6 +13,7 @@ from robot.se3 import SE3
 BOARD = Place(id="lower", name="lower board", X_WP=SE3((0.8, 0.0, 0.62)), size_m=(0.30, 0.90))
 WOOD = Obstacle(
     id="bookcase",
+    name="bookcase",
     X_WO=SE3((0.8, 0.0, 0.61)),
     shapes=(Shape(kind="box", size_m=(0.30, 0.90, 0.02)),),
 )
