@@ -91,7 +91,7 @@ class RemoteRobot:
         self.view = View()
         self.busy = False
 
-    def wait(self, *, asked: bool = False) -> None:  # noqa: ARG002
+    def wait(self, *, asked: bool = False) -> None:
         """A line that waits for its jobs has done so already."""
 
 

@@ -69,8 +69,11 @@ def copied(tmp_path: Path) -> Path:
     rows = "FRAMES: dict[str, Frame] = {\n"
     table = tmp_path / "intents/english/frames/__init__.py"
     edit(table, (rows, f"{rows}    {sense!r}: postures.warm_up,\n"))
-    edit(tmp_path / wording, ('_PLAIN = {g.Stop: "stop"', f'_PLAIN = {{g.WarmUp: {words!r}, g.Stop: "stop"'))  # fmt: skip
-    edit(tmp_path / handler, ("from intents import goals\n", "from executive.trees.parts import Series\nfrom intents import goals\nfrom intents.goals import WarmUp\n"))  # fmt: skip
+    stop = '_PLAIN = {g.Stop: "stop"'
+    edit(tmp_path / wording, (stop, stop.replace("{", f"{{g.WarmUp: {words!r}, ")))
+    goals_too = "from intents import goals\n"
+    needed = "from executive.trees.parts import Series\nfrom intents.goals import WarmUp\n"
+    edit(tmp_path / handler, (goals_too, goals_too + needed))
     with (tmp_path / handler).open("a") as end:
         end.write(f"\n\n{of[handler]}")
     rows = "HANDLERS: dict[type[Any], Handler] = {\n"

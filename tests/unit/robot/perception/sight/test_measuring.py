@@ -48,9 +48,7 @@ def looked_at(thing: str, *, away_m: float = 0.6, up_m: float = 0.4, hand: bool 
     return image, SE3.from_rotation(R, eye), pixels, hidden
 
 
-def taken(
-    thing: str, places=(TABLE,), *, piece: float = 1.0, lower_m=0.0, tilt_rad=0.0, **how
-):
+def taken(thing: str, places=(TABLE,), *, piece: float = 1.0, lower_m=0.0, tilt_rad=0.0, **how):
     """What is measured of a thing, of which only the lowest rows were found if it is a piece.
 
     The robot may hold its camera to be lower than it is, and to look further down.
