@@ -21,8 +21,8 @@ class WarmUp(_Goal, frozen=True, kw_only=True):
     duration_s: float | None = None
 
 
-# intents/english/words/verbs.py: its sense and the spellings of it, separated by commas, as a row of
-# `SPELLINGS` has them: "warm_up": "warm up,limber up".
+# intents/english/words/verbs.py: its sense and the spellings of it, separated by commas, as a row
+# of `SPELLINGS` has them: "warm_up": "warm up,limber up".
 SENSE, SPELLINGS = "warm_up", "warm up,limber up"
 
 
