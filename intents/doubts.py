@@ -51,6 +51,7 @@ from intents.grounding import queries
 from intents.mismatches import (
     counts_another,
     explains_another,
+    is_beside_itself,
     loses_all,
     measures_lost,
     mistimes,
@@ -414,6 +415,10 @@ def _puts_by_part(case: _Case) -> bool:
     return puts_by_part(case.words, case.goals, case.names)
 
 
+def _is_beside_itself(case: _Case) -> bool:
+    return is_beside_itself(case.words, case.goals)
+
+
 _BY_KIND = {
     SentenceKind.ORDER: 0.0,
     SentenceKind.UNASKED: QUITE_SURE,
@@ -435,6 +440,7 @@ _DOUBTS: tuple[tuple[Callable[[_Case], bool], float], ...] = (
     (_does_purpose, NEVER),
     (_carries_nothing, NEVER),
     (_puts_by_part, NEVER),
+    (_is_beside_itself, NEVER),
     (_is_short, NEVER),
     (_calls_somebody, NEVER),
     (_is_not_of_itself, NEVER),

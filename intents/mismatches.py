@@ -11,11 +11,11 @@ from collections.abc import Iterator, Sequence
 from intents.english.faithfulness import numbers
 from intents.english.frames.devices import is_device
 from intents.english.words import lexicon
-from intents.english.words.lexer import words_in
+from intents.english.words.lexer import singular, words_in
 from intents.english.words.measures import Measure, measure, number
 from intents.english.words.names import NameIndex
 from intents.english.words.verbs import base_form, verbs_at
-from intents.goals import Count, ForEach, Goal, Open, Report, Switch, Wait, each
+from intents.goals import Count, ForEach, Goal, ObjectQuery, Open, Report, Switch, Wait, each
 
 _SHUTS = lexicon.words("close closed shut down off out kill stop cut end lower douse draw drawn")
 _OPENS = lexicon.words("open opened up on start run wake raise lift unlock boot fire going part")
@@ -180,4 +180,20 @@ def puts_by_part(words: list[str], goals: Sequence[Goal], names: NameIndex) -> b
             part = word in spot.split() and words[at + 1] in _HOLES
             if verb or part:
                 return True
+    return False
+
+
+def is_beside_itself(words: list[str], goals: Sequence[Goal]) -> bool:
+    """The game *behind the till*: whether a thing is where it is itself, and was said but once."""
+    said = [singular(word) for word in words]
+    for goal in each(goals):
+        query = getattr(goal, "object", None)
+        if not isinstance(query, ObjectQuery) or query.relation is None:
+            continue
+        other = query.relation.of
+        if other.name is None:
+            continue
+        last = singular(words_in(other.name)[-1])
+        if other.name == query.name and not other.color and said.count(last) < _SEVERAL:
+            return True
     return False

@@ -7,6 +7,7 @@ from executive.skills.motions.look_over import limit_s
 from executive.skills.motions.object_search import find
 from executive.skills.motions.script import Script
 from executive.skills.motions.stow import stow_arms
+from executive.skills.motions.walk import stand_still
 from executive.skills.parameters import SkillParams
 from executive.skills.scripted import ScriptedSkill
 
@@ -43,3 +44,5 @@ class Search(ScriptedSkill[SearchParams]):
         yield from find(
             self.body, self.parameters.object_id, place_ids=self.parameters.place_ids, by_sight=True
         )
+        if self.body.state.mode != "stand":  # seen on the way, and nobody walks on
+            yield from stand_still(self.body)

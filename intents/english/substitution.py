@@ -47,7 +47,19 @@ def _same(value: object, old: ObjectQuery | Person | str) -> bool:
     return value == old
 
 
+def _is_all_of(goal: ForEach, old: ObjectQuery | Person | str) -> bool:
+    """Whether a goal is for all of some things that are spoken of: "the cups"; *they* are there."""
+    return isinstance(old, ObjectQuery) and _same(
+        goal.object, msgspec.structs.replace(old, count=None)
+    )
+
+
 def _replaced(value: object, old: ObjectQuery | Person | str, new: object) -> object:
+    if isinstance(value, ForEach) and isinstance(new, ObjectQuery) and _is_all_of(value, old):
+        where = new.at or value.object.at
+        return msgspec.structs.replace(
+            value, object=msgspec.structs.replace(new, count=None, at=where)
+        )
     if _same(value, old):
         kept = getattr(value, "at", None)
         if kept and isinstance(new, ObjectQuery | Person) and new.at is None:

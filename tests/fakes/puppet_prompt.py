@@ -79,7 +79,7 @@ def main(folder: Path, told: int, heard: int) -> None:
 
         threading.Thread(target=obey, daemon=True).start()
         robot.session.on_tick(tell)
-        robot.session.journal.listen(cli._tell)
+        robot.session.journal.listen(cli.Telling(cli.say))
         shell = Shell(robot, cli.say, table=table.commands, folder=folder)
         shell.speech = speaking.Speech()
         Terminal(shell, history=folder / "history").run()

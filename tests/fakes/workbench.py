@@ -48,11 +48,14 @@ class Workbench:
 
     def _here(self, family: Any) -> Any:
         ports = PORTS[family.driver]
-        return replace(family, ports=lambda joints, clock: ports(joints, self._built, clock))
+        lines = replace(family.of, ports=lambda joints, clock: ports(joints, self._built, clock))
+        return replace(family, of=lines)
 
     def _motors(self, file: Path, *, flaws: Mapping[str, str], is_still: bool = False) -> _Buses:
-        wanted, family = families.loaded(file)
-        self._built = family.build(wanted, now_s=self.clock.now_s(), flaws=flaws, is_still=is_still)
+        wanted, _, emulated = families.loaded(file)
+        self._built = emulated.build(
+            wanted, now_s=self.clock.now_s(), flaws=flaws, is_still=is_still
+        )
         return _Buses({name: f"bench-{os.getpid()}-{name}" for name in wanted.channels})
 
 

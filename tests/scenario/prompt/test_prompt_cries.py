@@ -132,6 +132,8 @@ def test_a_correction_takes_the_place_of_what_it_corrects(shell: Shell):
 
 
 def test_to_a_robot_that_stands_a_warning_is_answered_with_what_is_true(shell: Shell):
+    shell.line("stop")  # whatever went on before
+    shell.robot.wait()
     before = len(shell.robot.executive.jobs)
     for line in ("careful!", "watch out", "not that"):
         shell.line(line)

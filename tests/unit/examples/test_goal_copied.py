@@ -1,5 +1,6 @@
 """The example of a goal, with every piece copied to where it says: then people can say it."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -84,7 +85,8 @@ def copied(tmp_path: Path) -> Path:
 
 def test_people_can_say_it(copied: Path):
     command = [sys.executable, "-c", ASKED]
-    ran = subprocess.run(command, cwd=copied, capture_output=True, text=True, check=False)
+    ours = {**os.environ, "PYTHONPATH": str(copied)}
+    ran = subprocess.run(command, cwd=copied, env=ours, capture_output=True, text=True, check=False)
     assert ran.returncode == 0, ran.stderr
     assert ran.stdout.splitlines() == [
         "['squat for 5 s', 'lean for 5 s']",

@@ -112,3 +112,15 @@ def test_whose_something_is_and_why_a_thing_is_so_is_in_no_goal() -> None:
     assert mismatches.explains_another("why is that bellows so long", why)
     assert not mismatches.explains_another("why is that bellows so long, do you know", why)
     assert not mismatches.explains_another("why did that fail", why)
+
+
+@pytest.mark.parametrize(
+    ("said", "plain", "beside_itself"),
+    [
+        ("there is a hammer behind the till, bring it", "bring the hammer behind the hammer", True),
+        ("bring the hammer behind the other hammer", "bring the hammer behind the hammer", False),
+        ("bring the hammer behind the lamp", "bring the hammer behind the lamp", False),
+    ],
+)
+def test_what_is_beside_itself(said: str, plain: str, beside_itself: bool) -> None:
+    assert mismatches.is_beside_itself(words_in(said), meant(plain)) is beside_itself

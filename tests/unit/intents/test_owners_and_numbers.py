@@ -12,6 +12,8 @@ from intents.outcomes import Goals
     [
         ("I need the cap of Hans", "bring me the cap"),
         ("I need the scarf of Lucia, it is on the bar", "bring me the scarf on the bar"),
+        ("bring me the saucers, they are on the bar", "bring me the saucers on the bar"),
+        ("I need the pillows, they're on the trolley", "bring me the pillows on the trolley"),
         ("take Ravi's scarf back to him", "bring the scarf to Ravi"),
         ("bring Olga's cap to her", "bring the cap to Olga"),
         ("give Hans's torch back to him", "bring the torch to Hans"),

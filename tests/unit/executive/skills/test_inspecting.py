@@ -9,6 +9,7 @@ from executive.behaviours.run_skill import DEFAULT_LIMIT_S
 from executive.skills.inspect import RECENT_S, InspectParams
 from executive.skills.motions.look_over import VIEW_M
 from executive.skills.motions.object_search import GLIMPSED_S
+from executive.skills.pick import PickParams
 from executive.skills.search import SearchParams
 from executive.skills.skill import Lasting
 from robot.messages import Look, Stand, Walk
@@ -190,10 +191,17 @@ def shown_at(stage, times_s: tuple[float, ...]) -> None:
 def test_the_feet_do_not_stop_for_what_shows_often_enough_on_the_way(stage):
     stage.puppet.X_WS = SE3((-2.5, -2.5, 0.0))
     shown_at(stage, (5.0, 5.2, 5.4))
-    assert stage.run(SearchParams(object_id="cup")).status == "succeeded"
+    stage.run(PickParams(object_id="cup"), until_phase="planning")
     assert stage.puppet.time_s == pytest.approx(5.4, abs=0.15)
     assert stage.puppet.mode == "walk", "who takes it sets out again at once"
     assert isinstance([c for c in stage.puppet.sent if isinstance(c, Walk | Stand)][-1], Walk)
+
+
+def test_who_only_looks_for_it_stands_in_the_end(stage):
+    stage.puppet.X_WS = SE3((-2.5, -2.5, 0.0))
+    shown_at(stage, (5.0, 5.2, 5.4))
+    assert stage.run(SearchParams(object_id="cup")).status == "succeeded"
+    assert stage.puppet.mode == "stand"
 
 
 def test_the_feet_stop_for_what_showed_once(stage):
