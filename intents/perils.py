@@ -43,10 +43,6 @@ _BURNS = words(
     "stole cardigan fleece scrubs tie flag napkin tissue notebook folder newsletter sermon form "
     "datasheet diary petrol fuel spirit thinner turpentine isopropanol alcohol balloon"
 )
-_BURNING_KINDS = words(
-    "garment clothing clothes linen paper document book magazine reading stationery vestment "
-    "textile toy device gadget electronics chemical"
-)
 _HOT_TOOLS = words("iron tongs straightener straighteners wand gun hotplate")
 _HOT_TOOL_NAMES = ("curling", "soldering", "heat", "glue", "hot", "steam", "clothes", "flat")
 _SOFT = words(
