@@ -56,6 +56,14 @@ class SE3(msgspec.Struct, frozen=True):
         w, x, y, z = self.quat_wxyz
         return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
+    @property
+    def rpy_rad(self) -> Vector3:
+        """Fixed-axis roll, pitch, yaw [rad]: what `from_rpy` takes; pitch within a quarter turn."""
+        w, x, y, z = self.quat_wxyz
+        roll = math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
+        pitch = math.asin(max(-1.0, min(1.0, 2.0 * (w * y - z * x))))
+        return roll, pitch, self.yaw_rad
+
     def flat(self) -> SE3:
         """Same x, y and yaw, on the floor and upright."""
         return SE3.from_xy_yaw(self.p[0], self.p[1], self.yaw_rad)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from robot.reality.faults import Fault
 from robot.reality.studio import Renderer
 from robot.reality.truth import Check, Verdict
+from robot.se3 import SE3
 from sim import faults, judge, render
 from sim.plant import Plant
 from sim.witness import Witness
@@ -45,6 +46,10 @@ class JudgedPlant(Plant):
     def judge(self, checks: Iterable[Check]) -> Verdict:
         """How it truly is. Raises ConfigError if a check names what is not there."""
         return judge.judge(self, checks, self._witness or Witness(self))
+
+    def X_WB(self) -> SE3:
+        """Where its base truly is now."""
+        return self.oracle.X_WB()
 
     def camera(
         self, *, renderer: Renderer = "auto", size: tuple[int, int] | None = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from robot.bringup.lockstep import Lockstep
@@ -10,12 +11,13 @@ from robot.bus.bus import LocalBus
 from robot.clock import SimulatedClock
 from robot.control.loop import NEEDS, ControlLoop
 from robot.drivers.body_devices import BodyDevices
+from robot.drivers.body_sample import BodySample
 from robot.drivers.wiring import Wiring
 from robot.messages import BodyState
 from robot.model import description
 from robot.model.description import RobotDescription
 from robot.perception.node import PerceptionNode
-from robot.reality.contract import World
+from robot.reality.contract import Plant, World
 
 PHYSICS_MS = 2  # the motors' firmware runs in the physics step, integrated implicitly; `live`: 1 ms
 
@@ -31,6 +33,7 @@ class FastRuntime(Lockstep):
         seed: int = 0,
         bus: LocalBus | None = None,
         lidar_map: Path | None = None,
+        on_sample: Callable[[BodySample, Plant], None] | None = None,
     ) -> None:
         """Build every part; nothing moves before `advance`.
 
@@ -40,6 +43,7 @@ class FastRuntime(Lockstep):
             seed: of everything random.
             bus: to carry the messages; a new one by default.
             lidar_map: the map that it finds itself in, where its lidar tells it where it is.
+            on_sample: hears what the body feels in every period of its controller, for recordings.
 
         Raises:
             ConfigError: if the robot or the map cannot be used.
@@ -62,7 +66,11 @@ class FastRuntime(Lockstep):
                 localisation=world.localisation,
                 lidar_map=lidar_map,
             ),
-            body=BodyDevices(wiring, needs=NEEDS),
+            body=BodyDevices(
+                wiring,
+                needs=NEEDS,
+                on_sample=None if on_sample is None else lambda sample: on_sample(sample, plant),
+            ),
             bus=bus,
             clock=clock,
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from typing import Self, TypeVar
 
@@ -26,8 +26,19 @@ class BodyDevices(Closing):
     The motors' states set the pace; of the others the newest reading counts.
     """
 
-    def __init__(self, wiring: Wiring, *, needs: frozenset[Capability]) -> None:
+    def __init__(
+        self,
+        wiring: Wiring,
+        *,
+        needs: frozenset[Capability],
+        on_sample: Callable[[BodySample], None] | None = None,
+    ) -> None:
         """Make the drivers; nothing is opened.
+
+        Args:
+            wiring: what they are made of.
+            needs: what the motors must be able to do.
+            on_sample: hears every sample that is read, for those who record.
 
         Raises:
             ConfigError: if the description names a driver that there is not.
@@ -42,6 +53,7 @@ class BodyDevices(Closing):
         self._imu, self._force = IMU.make(wiring), FORCE.make(wiring)
         self._senses = PublishedSensors(wiring, "controller")
         self._clock = wiring.clock
+        self._on_sample = on_sample
         self._felt: ImuReading | None = None
         self._borne: ForceReading | None = None
         self._opened = ExitStack()
@@ -64,7 +76,10 @@ class BodyDevices(Closing):
         motors = self._motors.read()
         self._felt = self._newest("IMU", self._imu, self._felt)
         self._borne = self._newest("force sensors", self._force, self._borne)
-        return BodySample(motors, self._felt, self._borne)
+        sample = BodySample(motors, self._felt, self._borne)
+        if self._on_sample is not None:
+            self._on_sample(sample)
+        return sample
 
     def write(self, command: MotorCommand) -> MotorCommand:
         """Command every motor; see `MotorBus.write`."""

@@ -325,6 +325,10 @@ class Plant(SimulatedPlant, Protocol):
         """
         ...
 
+    def X_WB(self) -> SE3:
+        """Where its base truly is now: for recordings and judges; no robot reads it."""
+        ...
+
     def stand(self, X_WS: SE3) -> None:
         """Put the robot, at rest, with its soles' midpoint at X_WS (x, y, yaw)."""
         ...

@@ -138,3 +138,47 @@ def snap(
             )
         )
     )  # fmt: skip
+
+
+@app.command(no_args_is_help=True)
+def record(
+    *,
+    out: Annotated[
+        Path, typer.Option("--out", "--output", "-o", help="The folder to write the files to.")
+    ],
+    world: World = "kitchen",
+    robot: Robot = "juno",
+    seed: Seed = 0,
+    reality: InReality = USUAL,
+    longest: Annotated[
+        float,
+        typer.Option(
+            "--for", min=1.0, max=900.0, help="Seconds; it finishes the way that it is on then."
+        ),
+    ] = 60.0,
+    as_json: AsJson = False,
+) -> None:
+    """Lead a simulated robot through a world, and write what its lidar, legs and IMU say.
+
+    For those who want to try `map build`, `sensors estimate` and `people` and have no recording:
+    lidar.npz, legs.npz and robot.urdf are what these read, truth.txt is where the base truly was
+    (t x y z qw qx qy qz). Motors and sensors are emulated, with the flaws of the reality
+    (docs/realities.md). The same seed gives the same files.
+
+    [bold]Examples[/bold]
+
+      humanoid sensors record --out walk
+
+      humanoid sensors record --world flat:7 --for 120 --reality harsh --out flat
+    """
+    from executive.frontends.recordings.record import Asked
+    from executive.frontends.recordings.record import record as write
+
+    raise typer.Exit(
+        write(
+            Asked(
+                world=world, robot=robot, seed=seed, reality=reality, out=out, longest_s=longest,
+                as_json=as_json,
+            )
+        )
+    )  # fmt: skip

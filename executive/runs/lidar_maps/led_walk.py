@@ -32,7 +32,7 @@ from robot.fusion.history import BodyHistory
 from robot.fusion.lidar_place.levelled import Levelled, levelled, planar
 from robot.fusion.lidar_place.mapping import told_outlines, walked_map
 from robot.fusion.slam.map_file import SavedMap
-from robot.messages import WorldMap
+from robot.messages import LidarScan, WorldMap
 from robot.model.body import BodyModel
 from robot.planning.inline import InlinePlanner
 from robot.se3 import SE3
@@ -61,21 +61,45 @@ def survey(where: Setting, *, tell: Callable[[str], None]) -> SavedMap:
     bus = LocalBus()
     log = Log(there, bus)
     with FastRuntime(there.world, there.robot_name, seed=SEED, bus=bus) as runtime:
-        context = SkillContext(
-            link=runtime.link, planner=InlinePlanner(there.description),
-            description=there.description, seed=SEED,
-        )  # fmt: skip
-        executive = Executive(context, Journal(None), rates_hz=RATES_HZ)
-        goals = goals_of(there.world_map)
-        for number, goal in enumerate(goals):
-            now_s = runtime.clock.now_s()
-            tell(f"  {number + 1} of {len(goals)}: {goal}, {now_s:.0f} s of robot time")
-            asked = request.meant(f"go to {goal}", (GoTo(place=goal),), there)
-            if isinstance(asked, Understood) and now_s < LONGEST_S:
-                _submit(executive, asked)
-                loop.run(runtime, executive, interrupts=loop.Interrupts(), on_tick=log.take)
+        lead(runtime, there, seed=SEED, longest_s=LONGEST_S, on_tick=log.take, tell=tell)
     tell(f"  {len(log.sweeps)} scans; making the map")
     return log.map()
+
+
+def lead(
+    runtime: FastRuntime,
+    there: Setting,
+    *,
+    seed: int,
+    longest_s: float,
+    on_tick: Callable[[], None],
+    tell: Callable[[str], None],
+) -> None:
+    """Lead a robot to every room and piece of furniture, one after the other.
+
+    Args:
+        runtime: the robot in its world; nothing has moved yet.
+        there: of the same robot and world.
+        seed: of what its skills draw.
+        longest_s: of robot time: then it is led to nothing more.
+        on_tick: called after every tick of the executive.
+        tell: hears how it gets on.
+    """
+    context = SkillContext(
+        link=runtime.link, planner=InlinePlanner(there.description),
+        description=there.description, seed=seed,
+    )  # fmt: skip
+    executive = Executive(context, Journal(None), rates_hz=RATES_HZ)
+    goals = goals_of(there.world_map)
+    for number, goal in enumerate(goals):
+        now_s = runtime.clock.now_s()
+        if now_s >= longest_s:
+            break
+        tell(f"  {number + 1} of {len(goals)}: {goal}, {now_s:.0f} s of robot time")
+        asked = request.meant(f"go to {goal}", (GoTo(place=goal),), there)
+        if isinstance(asked, Understood):
+            _submit(executive, asked)
+            loop.run(runtime, executive, interrupts=loop.Interrupts(), on_tick=on_tick)
 
 
 def _submit(executive: Executive, asked: Understood) -> None:
@@ -112,14 +136,15 @@ class Log:
     """The scans of a walk, laid into the plane, with odometry at each.
 
     Attributes:
-        sweeps: in their order.
+        scans: as they came, in their order.
+        sweeps: the same, laid into the plane.
     """
 
     def __init__(self, where: Setting, bus: LocalBus) -> None:
         """Listen to a body that has not moved yet."""
+        self.scans: list[LidarScan] = []
         self.sweeps: list[Levelled] = []
         self._map = where.world_map
-        self._stamps_s: list[float] = []
         self._states = bus.subscribe(topics.BODY_STATE)
         self._scans = bus.subscribe(topics.LIDAR)
         self._history = BodyHistory()
@@ -138,7 +163,7 @@ class Log:
             X_NL = self._lidar_at(scan.stamp_s)
             if X_NL is not None:
                 self.sweeps.append(levelled(scan, X_NL))
-                self._stamps_s.append(scan.stamp_s)
+                self.scans.append(scan)
 
     def _lidar_at(self, stamp_s: float) -> SE3 | None:
         X_NB, joints = self._history.base_at(stamp_s), self._history.joints_at(stamp_s)
@@ -159,7 +184,7 @@ class Log:
         X_NL = SE3.from_xy_yaw(*first.odometry.tolist())
         return walked_map(
             self.sweeps,
-            self._stamps_s,
+            [scan.stamp_s for scan in self.scans],
             planar(self._began @ X_NL),
             told=told_outlines(fast, first.height_m),
         )

@@ -39,6 +39,16 @@ def test_the_inverse_undoes_a_pose_from_both_sides(X):
     np.testing.assert_allclose((X.inverse() @ X).matrix(), np.eye(4), atol=1e-12)
 
 
+tilts = st.floats(-1.5, 1.5)
+
+
+@given(angles, tilts, angles)
+def test_roll_pitch_and_yaw_come_back(roll, pitch, yaw):
+    X = SE3.from_rpy(roll, pitch, yaw, (1.0, 2.0, 3.0))
+    again = SE3.from_rpy(*X.rpy_rad, X.p)
+    np.testing.assert_allclose(again.matrix(), X.matrix(), atol=1e-9)
+
+
 @given(poses, st.tuples(lengths, lengths, lengths))
 def test_a_point_goes_there_and_back(X, point):
     np.testing.assert_allclose(X.inverse().apply(X.apply(point)), point, atol=1e-11)
