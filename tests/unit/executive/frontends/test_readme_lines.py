@@ -1,4 +1,4 @@
-"""Every `humanoid` line that README shows is one that there is, with options that it takes."""
+"""Every `humanoid` line of README and tutorial is one that there is, with options that it takes."""
 
 import re
 import shlex
@@ -9,10 +9,11 @@ from typer.main import get_command
 
 from executive.frontends.cli import app
 
-README = Path(__file__).parents[4] / "README.md"
+ROOT = Path(__file__).parents[4]
+TEXT = (ROOT / "README.md").read_text() + (ROOT / "docs" / "tutorial.md").read_text()
 LINES = [
     shlex.split(line, comments=True)[1:]
-    for block in re.findall(r"```\w*\n(.*?)```", README.read_text(), flags=re.DOTALL)
+    for block in re.findall(r"```\w*\n(.*?)```", TEXT, flags=re.DOTALL)
     for line in block.splitlines()
     if line.startswith("humanoid ")
 ]
@@ -23,7 +24,7 @@ def test_there_are_lines():
 
 
 @pytest.mark.parametrize("words", LINES, ids=" ".join)
-def test_a_line_of_the_readme_is_parsed(words: list[str]):
+def test_a_line_that_is_shown_is_parsed(words: list[str]):
     command, words, context = get_command(app), list(words), None
     while hasattr(command, "commands") and words and words[0] in command.commands:
         context = command.make_context(command.name, [], parent=context, resilient_parsing=True)
