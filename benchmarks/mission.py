@@ -1,4 +1,7 @@
-"""The main job, many times over: another start, other spots, another cup, another board."""
+"""The main job, many times over: another start, other spots, another cup, another board.
+
+As `humanoid do` does it by default: its reality, its eyes, its way to find its place.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,7 @@ from benchmarks.markdown import share, table
 from executive.engine.executive import Executive
 from executive.frontends.progress import Silent
 from executive.meaning import request
-from executive.runs import runtimes, task_run
+from executive.runs import lidar_maps, runtimes, task_run
 from executive.runs.runtimes import Opened, Setup
 from executive.runs.session import Session
 from executive.runs.summary import Summary
@@ -22,6 +25,7 @@ from executive.runs.task_run import Assignment, Progress
 from robot.clock import WallClock
 from robot.planning.requests import PlacePlan, PlanRequest, PlanResult
 from robot.planning.worker import Planner
+from robot.reality.contract import USUAL
 from robot.se3 import SE3
 from sim.simulation import Simulation
 
@@ -81,7 +85,11 @@ def words(seed: int) -> tuple[str, str]:
 def do(*, seed: int, live: bool = False) -> dict[str, Any]:
     """One mission; `fast` is judged by the simulator's truth, `live` by the robot's own report."""
     sentence, cup = words(seed)
-    where = request.setting(Simulation(), WORLD, robot=ROBOT, vary_seed=seed)
+    where = lidar_maps.localised(
+        request.setting(Simulation().under(USUAL, eyes="auto"), WORLD, robot=ROBOT, vary_seed=seed),
+        "auto",
+        tell=lambda _text: None,
+    )
     understood = request.request(sentence, where)
     if isinstance(understood, request.Refused):
         return {"ok": False, "code": understood.outcome, "cause": understood.reason}
