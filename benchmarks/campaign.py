@@ -11,6 +11,7 @@ import hashlib
 import importlib
 import json
 import multiprocessing
+import os
 import time
 import traceback
 from collections.abc import Iterator
@@ -21,6 +22,8 @@ from typing import Any
 import msgspec
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+from robot.bus.lifeline import tie_to_parent
 
 ROOT = Path(__file__).resolve().parent.parent
 UNFINISHED = ROOT / "runs" / "benchmarks"
@@ -97,7 +100,9 @@ def _pool(jobs: list[Trial], processes: int) -> Iterator[tuple[Trial, Outcome]]:
     if not jobs:
         return
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(min(processes, len(jobs)), mp_context=context) as pool:
+    with ProcessPoolExecutor(
+        min(processes, len(jobs)), context, initializer=tie_to_parent, initargs=(os.getpid(),)
+    ) as pool:
         waiting: dict[Future[Outcome], Trial] = {pool.submit(perform, job): job for job in jobs}
         try:
             while waiting:
