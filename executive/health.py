@@ -31,13 +31,15 @@ class Level(IntEnum):
 class Finding(msgspec.Struct, frozen=True, kw_only=True):
     """One thing that is not as it should be, how bad it is, and the failure it would be.
 
-    `speed` is the part of its fastest walk that the robot may still use.
+    `speed` is the part of its fastest walk that the robot may still use; `beginning` says that it
+    only waits for the first word of something that has just been started, which every run does.
     """
 
     name: str
     level: Level
     failure: Failure
     speed: float = 1.0
+    beginning: bool = False
 
 
 class Health(msgspec.Struct, frozen=True, kw_only=True):
@@ -60,6 +62,11 @@ class Health(msgspec.Struct, frozen=True, kw_only=True):
     def calls_for(self, level: Level) -> bool:
         """Whether a finding asks for just this level."""
         return any(finding.level is level for finding in self.findings)
+
+    @property
+    def beginning(self) -> bool:
+        """Whether nothing worse is found than that something is only starting."""
+        return bool(self.findings) and self.findings[0].beginning
 
     @property
     def failure(self) -> Failure | None:

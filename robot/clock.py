@@ -68,8 +68,9 @@ class Waker:
     """
 
     def __init__(self) -> None:
-        """Open the pipe."""
-        self._read, self.fd = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
+        """Open the pipe. Raises OSError: no more files can be open."""
+        self._ends: tuple[int, ...] = ()
+        self._ends = self._read, self.fd = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
 
     def wake(self) -> None:
         """End the wait under way, or else the next one."""
@@ -89,5 +90,5 @@ class Waker:
 
     def __del__(self) -> None:
         """Close the pipe, once nobody can wake it any more."""
-        os.close(self._read)
-        os.close(self.fd)
+        for end in self._ends:
+            os.close(end)

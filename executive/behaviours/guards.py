@@ -5,7 +5,7 @@ from __future__ import annotations
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
-from executive.behaviours.stage import Stage, failure_data
+from executive.behaviours.stage import Stage, beginning_data, failure_data
 from executive.blackboard import ABORT, HEALTH, PAUSE, PAUSED, RESTLESS, STOP, Writer
 from robot.failures import Failure, failure
 
@@ -63,8 +63,9 @@ class Hold(Behaviour):
     def initialise(self) -> None:
         """Begin to wait."""
         self._last_s = self._stage.now_s
-        worst = self._stage.board.read(HEALTH).failure
-        self._stage.record("hold", why=worst.cause if worst else "")
+        health = self._stage.board.read(HEALTH)
+        why = health.failure.cause if health.failure else ""
+        self._stage.record("hold", why=why, **beginning_data(health.beginning))
 
     def update(self) -> Status:
         """Count the time."""

@@ -201,3 +201,11 @@ def failure_data(reason: Failure) -> dict[str, object]:
     if reason.evidence:
         data["evidence"] = reason.evidence
     return data
+
+
+def beginning_data(beginning: bool) -> dict[str, object]:
+    """What marks an event of the journal that is only about something that has just been started.
+
+    Every run has such, and nothing is wrong: people are not told of them.
+    """
+    return {"beginning": True} if beginning else {}

@@ -226,10 +226,10 @@ class HealthMonitor:
         if came and age_s <= max(concern.periods / rate_hz, concern.at_least_s):
             return None
         starting = not came and age_s <= START_UP_S
-        text = f"waiting for {name}" if starting else f"{concern.text} for {age_s:.1f} s"
+        text = concern.starting if starting else f"{concern.text} for {age_s:.1f} s"
         level = Level.HOLD if starting else Level[concern.level]
         reason = failure(concern.code, text, topic=name, age_s=age_s, promised_hz=rate_hz)
-        return Finding(name=name, level=level, failure=reason)
+        return Finding(name=name, level=level, failure=reason, beginning=starting)
 
     def _heat(self, body: BodyState) -> list[Finding]:
         """Hot motors; one that tripped has to cool down well below before it counts as well."""

@@ -7,7 +7,7 @@ from py_trees.behaviour import Behaviour
 from py_trees.common import Status
 
 from executive.behaviours.ask import ANSWERS
-from executive.behaviours.stage import Stage, failure_data
+from executive.behaviours.stage import Stage, beginning_data, failure_data
 from executive.blackboard import (
     BODY,
     GIVEN,
@@ -136,11 +136,11 @@ class Sense(Behaviour):
 
     def _journal(self, health: Health) -> None:
         """Journal what has come up or gone away since the last tick."""
-        before = {(finding.name, finding.level) for finding in self._health.findings}
+        before = {_kind(finding) for finding in self._health.findings}
         for finding in health.findings:
             heat_c = _heat_c(finding)
             told_c = self._told_c.get(finding.name, heat_c)
-            is_new = (finding.name, finding.level) not in before
+            is_new = _kind(finding) not in before
             if is_new or abs(heat_c - told_c) >= HEAT_STEP_C:
                 self._told_c[finding.name] = heat_c
                 self._stage.record(
@@ -148,12 +148,23 @@ class Sense(Behaviour):
                     name=finding.name,
                     level=finding.level.name,
                     **failure_data(finding.failure),
+                    **beginning_data(finding.beginning),
                 )
         after = {finding.name for finding in health.findings}
         for finding in self._health.findings:
             if finding.name not in after:
-                self._stage.record("health", name=finding.name, level=Level.OK.name)
+                self._stage.record(
+                    "health",
+                    name=finding.name,
+                    level=Level.OK.name,
+                    **beginning_data(finding.beginning),
+                )
         self._health = health
+
+
+def _kind(finding: Finding) -> tuple[str, Level, bool]:
+    """What has to change about a finding to be news."""
+    return finding.name, finding.level, finding.beginning
 
 
 def _heat_c(finding: Finding) -> float:

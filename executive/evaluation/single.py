@@ -151,7 +151,7 @@ class _Trial:
     def _note(self, event: str, data: dict[str, Any]) -> None:
         if event == "failure":
             self.codes.append(str(data["code"]))
-        self.recoveries += event in ("recovery", "hold")
+        self.recoveries += event in ("recovery", "hold") and not data.get("beginning")
 
     def _record(
         self, plant: Plant, reason: Failure | None, *, took_s: float, struck: int

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import os
 import traceback
 from collections.abc import Generator
 from contextlib import contextmanager
@@ -57,6 +58,10 @@ def ended_by(error: BaseException, *, as_json: bool) -> int:
         return last_words(
             "Stopped on request.", lines, "", status=ExitStatus.FAILED, as_json=as_json
         )
+    if isinstance(error, FileNotFoundError) and _is_nowhere():
+        lines = ["the current folder is not there any more"]
+        cure = "change into one that is (cd), then try again"
+        return last_words("Not done:", lines, cure, status=ExitStatus.INVALID, as_json=as_json)
     if isinstance(error, OSError) and error.filename is not None:
         # Not what was foreseen, but of the machine and not of this software all the same.
         lines = [f"{error.filename}: {error.strerror}"]
@@ -80,6 +85,15 @@ def _cure(problems: list[Problem], *, as_json: bool) -> str:
     if len(own) < len(problems):
         return "correct that, then try again"
     return "; ".join(dict.fromkeys(own)) if as_json else ""  # as text it stands behind each
+
+
+def _is_nowhere() -> bool:
+    """Whether the current folder was removed, which Python and its libraries stumble over."""
+    try:
+        os.getcwd()
+    except FileNotFoundError:
+        return True
+    return False
 
 
 def _used_up(error: BaseException) -> str:

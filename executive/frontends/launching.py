@@ -62,7 +62,11 @@ def launch(front: FrontEnd, options: object, *, as_json: bool = False) -> int:
         front: which one.
         options: of the front end, a struct or a dataclass.
         as_json: nothing but JSON goes to standard output.
+
+    Raises:
+        FileNotFoundError: the current folder is not there any more.
     """
+    Path.cwd()  # here, where it can be told: no process of a run can begin in it
     from robot.bringup import launcher  # half of what the command line would take to load
 
     plain = msgspec.to_builtins(options, enc_hook=str)

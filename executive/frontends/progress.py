@@ -152,6 +152,6 @@ def sentence(event: Event) -> str:
     data = event.data
     if event.event == "phase":
         return printable_line(f"{data['step']}: {data['phase']}")
-    if event.event == "health" and data["level"] == "OK":
-        return ""
+    if data.get("beginning") or (event.event == "health" and data["level"] == "OK"):
+        return ""  # every run waits for its first messages, and what is over troubles nobody
     return printable_line(words.sentence(event.event, data)) if event.event in NEWS else ""

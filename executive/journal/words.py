@@ -78,7 +78,12 @@ def sentence(kind: str, data: Mapping[str, Any]) -> str:
 
 
 def in_hindsight(kind: str, data: Mapping[str, Any]) -> str:
-    """An event as it is told afterwards; empty for what did not happen to the robot as a whole."""
+    """An event as it is told afterwards; empty for what did not happen to the robot as a whole.
+
+    Empty as well for what every run waits for at its start.
+    """
+    if data.get("beginning"):
+        return ""
     if kind in ("health", "fault"):
         return _OF_KIND[kind](data)
     if kind not in IN_HINDSIGHT:

@@ -9,6 +9,7 @@ exporters leave: `encoder_model.onnx` and `decoder_model_merged.onnx`, or
 
 from __future__ import annotations
 
+import os
 import time
 from pathlib import Path
 from typing import Any
@@ -36,6 +37,7 @@ class Whisper:
         """
         if folder is None or not folder.is_dir():
             raise AudioError(f"{folder} is no folder with a Whisper model", _EXPORT)
+        os.environ["ORT_DISABLE_TELEMETRY"] = "1"  # before it is loaded: nothing is sent anywhere
         try:
             import onnxruntime
             from onnx_asr import load_model

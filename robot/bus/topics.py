@@ -35,12 +35,13 @@ class Silence:
     """What it means that a topic is silent: after so many periods, and seconds at least.
 
     `code` is a failure's, `level` the name of what health makes of it (`executive.health`), `text`
-    what people read.
+    what people read, `starting` what they read at the start, before the first message.
     """
 
     code: str
     level: Literal["HOLD", "SIT"]
     text: str
+    starting: str
     periods: float = 3.0
     at_least_s: float = 0.5
 
@@ -70,16 +71,27 @@ BODY_STATE: Topic[BodyState] = Topic(
         code="controller_lost",
         level="SIT",
         text="the controller stopped reporting; the motors damp by themselves",
+        starting="the controller is starting",
         periods=10.0,
     ),
 )  # fmt: skip
 LIDAR: Topic[LidarScan] = Topic(
     "sensors/lidar", LidarScan, 10.0, "perception",
-    silence=Silence(code="sensor_silent", level="HOLD", text="the lidar is silent"),
+    silence=Silence(
+        code="sensor_silent",
+        level="HOLD",
+        text="the lidar is silent",
+        starting="the lidar is starting",
+    ),
 )  # fmt: skip
 DEPTH: Topic[DepthImage] = Topic(
     "sensors/depth", DepthImage, 10.0, "perception",
-    silence=Silence(code="sensor_silent", level="HOLD", text="the camera is silent"),
+    silence=Silence(
+        code="sensor_silent",
+        level="HOLD",
+        text="the camera is silent",
+        starting="the camera is starting",
+    ),
 )  # fmt: skip
 RGBD: Topic[RgbdImage] = Topic("sensors/rgbd", RgbdImage, 10.0, "perception", queue=2)
 CAMERA_STATE: Topic[CameraState] = Topic("sensors/camera_state", CameraState, 2.0, "perception")
@@ -93,7 +105,12 @@ HEARD: Topic[Heard] = Topic("oracle/heard", Heard, None, "plant", queue=32)
 POWER: Topic[PowerState] = Topic("power/state", PowerState, 1.0, "controller")
 WORLD_STATE: Topic[WorldState] = Topic(
     "world/state", WorldState, 10.0, "perception",
-    silence=Silence(code="localisation_lost", level="HOLD", text="the world model is silent"),
+    silence=Silence(
+        code="localisation_lost",
+        level="HOLD",
+        text="the world model is silent",
+        starting="the robot is finding its place",
+    ),
 )  # fmt: skip
 CONTROLLER_TIMING: Topic[LoopTiming] = Topic("controller/timing", LoopTiming, 2.0, "controller")
 PLANT_TIMING: Topic[LoopTiming] = Topic("plant/timing", LoopTiming, 1.0, "plant")

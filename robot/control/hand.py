@@ -2,12 +2,15 @@
 
 As people do, it grips harder when what it holds is pulled at: with the force that the friction of
 its pads asks for, times a margin, but never less than it was told, nor more than the motor bears
-for a moment.
+for a moment. While the hand is empty, what its force sensor shows besides the hand's own weight is
+what the sensor is off by (several newtons, docs/realities.md): it is taken off from then on.
 """
 
 from __future__ import annotations
 
 import math
+
+import numpy as np
 
 from robot.drivers.motor_bus import MotorState
 from robot.messages import Activity, Grip, HandState, Side
@@ -17,6 +20,9 @@ from robot.se3 import SE3, Array, Vector3
 
 MARGIN = 1.25
 PULL_TIME_S, TIGHT_S = 0.01, 1.0  # of a pull: soon felt; gripped harder until it has rested so long
+TARE_S = 5.0
+"""Over so long the sensor's offset is averaged: ten steps of a walk, whose accelerations cancel out;
+a thing that the open hand brushes for a moment hardly counts, a drift of 0.2 N/√s is kept up with."""
 STOPPED = "stopped by something"
 
 
@@ -37,6 +43,8 @@ class HandControl:
         self._reference = self.target
         self._force_n = self.hand.max_force_n
         self._most_n = self.gripping.peak_share * float(body.torque_limit_nm[self.motor])
+        self._offset_n: Array = np.zeros(3)  # in the axes of the sensor
+        self._empty_s = 0.0
         self._pull_n: Vector3 = (0.0, 0.0, 0.0)  # in the axes of N
         self._tight_n = 0.0
         self._tight_s = 0.0
@@ -71,7 +79,10 @@ class HandControl:
         frame of this one into N, shape (3, 3).
         """
         self._time_s += dt_s
-        x, y, z = rotation_NW.dot(wrist_wrench[self.row, :3]).tolist()
+        measured_n = wrist_wrench[self.row, :3]
+        if self.activity.status == "done" and self.activity.detail != STOPPED:
+            self._tare(dt_s, measured_n, rotation_NW)
+        x, y, z = rotation_NW.dot(measured_n - self._offset_n).tolist()
         load = -z - self._weight_n
         self.load_n += min(1.0, dt_s / self.gripping.load_s) * (load - self.load_n)
         q, qd = float(state.q[self.motor]), float(state.qd[self.motor])
@@ -85,6 +96,12 @@ class HandControl:
         self._reference = max(q - reach, min(q + reach, self._reference))
         self._report(dt_s, q, qd)
         return self._reference
+
+    def _tare(self, dt_s: float, measured_n: Array, rotation_NW: Array) -> None:
+        """The hand is empty: all that its sensor bears is its own weight."""
+        self._empty_s = min(TARE_S, self._empty_s + dt_s)
+        off_n = measured_n + self._weight_n * rotation_NW[2]
+        self._offset_n += dt_s / self._empty_s * (off_n - self._offset_n)
 
     def _tighten(self, dt_s: float, pull_n: Vector3) -> None:
         """Note how much harder to grip what is pulled at, and for how long; `pull_n` is in N."""

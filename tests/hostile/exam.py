@@ -159,14 +159,22 @@ class Examiner:
         }
         if case.user is not None:
             _give(work, case.user)
-        before = _look(outside), sorted(root.iterdir())
+        before, at_home = (_look(outside), sorted(root.iterdir())), _not_ours(home)
         result = self._server.run(server.job_of(case, work, kept, shm))
         if result.status == server.BROKEN:
             raise RuntimeError(result.err.decode())
         found = judge.broken(case, result, work)
         if (_look(outside), sorted(root.iterdir())) != before:
             found.append("changes what lies outside its folder")
+        if strange := _not_ours(home) - at_home:
+            found.append(f"leaves {', '.join(sorted(strange))} at home")
         return result, found
+
+
+def _not_ours(home: Path) -> set[str]:
+    """Files at home that lie in no folder of ours, as libraries leave them."""
+    there = (path.relative_to(home) for path in home.rglob("*") if not path.is_dir())
+    return {str(path) for path in there if "humanoid" not in path.parts}
 
 
 def _lay_out(case: Case, work: Path, outside: Path) -> None:

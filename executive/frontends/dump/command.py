@@ -68,8 +68,10 @@ def dump(asked: Asked, *, browse: Callable[[str], object] = webbrowser.open) -> 
         text = f"a very long run: {run.left_out} details are left out, mostly of its middle"
         say(text, err=True)
     if run.unreadable:
-        lines = f"{run.unreadable} lines of the journal, the first of them line "
-        say(f"{lines}{run.unreadable_line}, make no sense and were left out", err=True)
+        first, count = f"line {run.unreadable_line}", run.unreadable
+        lines = f"{count} lines of the journal, the first of them {first}, make no sense and were"
+        line = f"{first} of the journal makes no sense and was"
+        say(f"{lines if count > 1 else line} left out", err=True)
     if str(asked.output) == "-" or (asked.output is None and kind in TO_TERMINAL):
         if kind == "png" and sys.stdout.isatty():
             raise ConfigError([Problem("a terminal shows no picture", suggestion="name a file")])

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +32,9 @@ def session(path: Path, *, cure: str = EXPORT) -> Any:
     Raises:
         ConfigError: onnxruntime is missing, or the file holds no network.
     """
+    # Its builds since 1.31 otherwise note what is run with it, under an identifier that they keep
+    # in ~/.cache, and send that away; it is asked before the library is loaded, or not at all.
+    os.environ["ORT_DISABLE_TELEMETRY"] = "1"
     try:
         import onnxruntime
     except ImportError:

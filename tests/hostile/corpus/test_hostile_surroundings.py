@@ -295,6 +295,29 @@ CASES = [
     ),
     *(
         Case(
+            name=f"inside-nowhere-{argv[0]}",
+            argv=argv,
+            expect=Expect.ENDS,
+            inside=inside.folder_gone,
+            cpu_s=10,
+        )
+        for argv in (
+            ("do", "wave"),
+            ("repl", "--fast"),
+            ("eval", "wave", "--seeds", "1"),
+            ("doctor",),
+            ("view", "--snapshot", "a.png"),
+            ("up",),
+            ("stop",),
+            ("estop",),
+            ("mission", "check", "m.yaml"),
+            ("worlds", "new", "--kind", "flat", "--seed", "1"),
+            ("film",),
+            ("config",),
+        )
+    ),
+    *(
+        Case(
             name=f"nobody-{name}",
             argv=argv,
             user=NOBODY,

@@ -93,6 +93,8 @@ def test_before_the_first_message_it_waits_then_gives_up():
     soon = monitor.look(5.1, none, body=None, world=None)
     late = monitor.look(5.1 + START_UP_S, none, body=None, world=None)
     assert soon.level is Level.HOLD
+    assert soon.beginning
+    assert not late.beginning
     assert late.level is Level.SIT
     assert late.failure.code == "controller_lost"
 
@@ -311,6 +313,26 @@ def test_a_topic_that_begins_late_is_not_thin():
     for tick in range(200):
         stamp_s = 0.1 * (tick // 2) if tick >= begun else None
         assert flow.judge("world/state", 0.05 * tick, stamp_s) is None
+
+
+def test_that_a_run_waits_for_its_first_messages_is_marked_and_where_they_do_not_come_is_not():
+    told = []
+    monitor = HealthMonitor({"world/state": 10.0}, start_s=0.0)
+    sense = SimpleNamespace(
+        _health=Health(),
+        _told_c={},
+        _stage=SimpleNamespace(record=lambda _kind, **data: told.append(data)),
+    )
+    for now_s, stamp_s in ((0.1, None), (START_UP_S + 0.1, None), (START_UP_S + 0.2, 10.3)):
+        stamps = {"world/state": stamp_s}
+        Sense._journal(cast(Sense, sense), monitor.look(now_s, stamps, body=None, world=None))
+    assert [(one["level"], one.get("beginning", False)) for one in told] == [
+        ("HOLD", True),
+        ("HOLD", False),
+        ("OK", False),
+    ]
+    assert told[0]["cause"] == "the robot is finding its place"
+    assert told[1]["cause"] == "the world model is silent for 10.1 s"
 
 
 def test_how_hot_a_motor_is_by_now_is_journalled(robot):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 
 import pytest
 
@@ -47,3 +48,19 @@ def test_ctrl_c_before_it_moves_says_so(capsys):
     text = "Stopped on request.\n  nothing was started, and nothing has moved\n"
     assert capsys.readouterr().err == text
     assert told(KeyboardInterrupt(), capsys) == "Stopped on request.\n"
+
+
+def test_a_current_folder_that_is_gone_is_no_mistake_of_this_software(
+    tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    os.chdir(gone)
+    gone.rmdir()
+    with pytest.raises(FileNotFoundError) as error:
+        os.getcwd()
+    assert ended_by(error.value, as_json=False) == ExitStatus.INVALID
+    text = capsys.readouterr().err
+    assert text.startswith("Not done:\n  the current folder is not there any more\n")
+    assert "cd" in text

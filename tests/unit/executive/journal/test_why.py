@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from executive.frontends import progress
 from executive.journal import words
 from executive.journal.journal import Event
 from executive.journal.reader import Reader
@@ -348,3 +349,28 @@ def test_only_what_can_be_gone_on_with_is_to_be_resumed(tmp_path):
 
 def test_of_a_run_in_which_nothing_was_begun_nothing_is_to_be_resumed():
     assert "humanoid resume" not in explained(journal(RUN)).text
+
+
+WAITS = {"name": "world/state", "level": "HOLD", "cause": "the robot is finding its place"}
+
+
+@pytest.mark.parametrize("beginning", [True, False])
+def test_what_every_run_waits_for_at_its_start_is_no_news(beginning):
+    mark = {"beginning": True} if beginning else {}
+    events = journal(
+        RUN,
+        ("health", {**WAITS, **mark}),
+        ("hold", {"why": WAITS["cause"], **mark}),
+        job("running"),
+        ("health", {"name": "world/state", "level": "OK", **mark}),
+        ("step", {**PICK, "attempt": 0}),
+        ("done", PICK),
+        job("done"),
+        ("outcome", {"code": "done", "took_s": 3.0}),
+    )
+    text = explained(events).text
+    assert ("finding its place" in text) is not beginning
+    assert ("Besides:" in text) is not beginning
+    assert "world/state is well" not in text or not beginning
+    shown = [progress.sentence(event) for event in events]
+    assert any("finding its place" in line for line in shown) is not beginning
