@@ -183,10 +183,14 @@ def check_count(runs: int) -> None:
 
 
 class Meant(msgspec.Struct, frozen=True, kw_only=True):
-    """What a case's mission is, and where it is done."""
+    """What a case's mission is, and where it is done.
+
+    `remark` is what people are told of how it was understood: of words that were taken for others.
+    """
 
     assignment: Assignment
     where: request.Setting
+    remark: str = ""
 
 
 class Settings:
@@ -222,12 +226,14 @@ def meant(case: Case, settings: Settings) -> Meant | request.Refused:
         )
         checked = check.check(find(case.mission), settings.reality, options)
         made = mission_assignment.assignment(checked, options, path=case.mission)
-        return Meant(assignment=made, where=checked.where)
+        remark = "; ".join(note.message for note in checked.notes)
+        return Meant(assignment=made, where=checked.where, remark=remark)
     where = settings.of(case.world or BENCH)
     understood = request.request(case.mission, where)
     if isinstance(understood, request.Refused):
         return understood
-    return Meant(assignment=Assignment(understood=understood), where=where)
+    made = Assignment(understood=understood)
+    return Meant(assignment=made, where=where, remark=understood.remark)
 
 
 def where(case: Case, settings: Settings) -> request.Setting:

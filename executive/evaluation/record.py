@@ -51,6 +51,7 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
         done: whether all is in truth as it was to be, and the robot stands.
         false: whether the robot says that it is done, and it is not.
         touched, too_near: as in `robot.reality.truth.Verdict`.
+        remark: what people are told of how the mission was understood.
         journal: the folder of what it wrote, from that of the results; empty: it is not kept.
     """
 
@@ -73,6 +74,7 @@ class Record(msgspec.Struct, frozen=True, kw_only=True):
     false: bool = False
     touched: tuple[str, ...] = ()
     too_near: tuple[str, ...] = ()
+    remark: str = ""
     journal: str = ""
 
 

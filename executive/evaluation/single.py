@@ -187,4 +187,5 @@ class _Trial:
             false=code == "done" and not there,
             touched=verdict.touched,
             too_near=verdict.too_near,
+            remark=self.given.remark,
         )

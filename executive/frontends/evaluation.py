@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 import sys
 from collections.abc import Iterable
+from itertools import islice
 from pathlib import Path
 
 import msgspec
@@ -36,6 +37,8 @@ from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
 from robot.files.config import nearest
 
+MOST_REMARKS = 20
+"""So many cases are named whose words were taken for others; who made more reads the file."""
 WORLD = "kitchen"
 """Where a sentence of one's own is done if nothing else is said, as by `humanoid do`."""
 
@@ -80,6 +83,7 @@ def evaluate(options: Eval) -> int:
         records = results.records.values()
         found = _summed_up(cases, moved, options, records, left=len(left), mixed=mixed)
         _say(found, results.path.parent, options)
+        say_remarks(records)
         if ending.asked:
             return _stopped(found, results.path.parent)
         return ExitStatus.DONE if well(found, options.require) else ExitStatus.FAILED
@@ -120,6 +124,15 @@ def _say(found: Found, folder: Path, options: Eval) -> None:
         say(f"what went wrong: humanoid why {folder / keeping.FOLDER}/NAME (dump and film, too)")
     if not found.left:
         say(f"results: {folder / FILE}; more seeds with: --resume {folder}")
+
+
+def say_remarks(records: Iterable[Record]) -> None:
+    """Say how missions were understood where that is not plain, once for all runs of a case."""
+    remarks = dict.fromkeys((one.case, one.remark) for one in records if one.remark)
+    for case, remark in islice(remarks, MOST_REMARKS):
+        say(f"{case}: {remark}", err=True)
+    if len(remarks) > MOST_REMARKS:
+        say(f"and {len(remarks) - MOST_REMARKS} more in {FILE}", err=True)
 
 
 def _stopped(found: Found, folder: Path) -> int:

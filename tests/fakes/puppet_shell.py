@@ -17,16 +17,20 @@ from executive.runs.runtimes import Kind, Opened, Setup
 from robot.clock import WallClock
 from robot.se3 import SE3
 from tests.fakes.puppet_prompt import Paced
-from tests.fakes.puppet_runtime import SensingPuppet
+from tests.fakes.puppet_runtime import PuppetRuntime, SensingPuppet
 
 
 @contextmanager
 def puppet_shell(
     folder: Path, said: list[str], *, world: str = "kitchen", kind: Kind = "live"
 ) -> Generator[Shell]:
-    """A shell whose robot is up; what it says is put into `said`."""
+    """A shell whose robot is up; what it says is put into `said`.
+
+    Where `kind` is live, its time goes on by the wall's clock; where it is fast, nobody waits.
+    """
     where = request.setting(REALITY, world, robot="juno")
-    runtime = Paced(SensingPuppet(where.description, {}, where.world_map, X_WN=SE3()))
+    paced = Paced if kind == "live" else PuppetRuntime
+    runtime = paced(SensingPuppet(where.description, {}, where.world_map, X_WN=SE3()))
 
     @contextmanager
     def opened(_setup: Setup, *, handle: object = None) -> Generator[Opened]:

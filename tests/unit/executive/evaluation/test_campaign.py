@@ -266,3 +266,25 @@ class Hands:
 def test_runs_that_nobody_wants_any_more_are_not_begun():
     run = Run(case=Case(name="a", mission="stand"), seed=0)
     assert list(pool.in_processes([run], Simulation(), processes=1, stop=lambda: True)) == []
+
+
+@pytest.mark.parametrize(
+    ("mission", "remark"),
+    [("go to the tabel", "I took “tabel” for “table”."), ("go to the table", "")],
+)
+def test_words_that_were_taken_for_others_are_noted(mission, remark):
+    settings = campaign.Settings(Simulation())
+    case = Case(name="go", mission=mission, expect="recovered", world="kitchen")
+    given = campaign.meant(case, settings)
+    assert isinstance(given, campaign.Meant)
+    assert given.remark == remark
+
+
+def test_words_that_were_taken_for_others_are_told_once_for_each_case(capsys):
+    records = [record(seed=seed, remark="I took “teh” for “the”") for seed in range(3)]
+    many = [record(case=f"case {number}", remark="so it was") for number in range(30)]
+    evaluation.say_remarks([*records, record("b"), *many])
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[0] == "a: I took “teh” for “the”"
+    assert len(lines) == 1 + evaluation.MOST_REMARKS
+    assert lines[-1] == f"and 11 more in {FILE}"
