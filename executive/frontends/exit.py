@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import errno
-import os
 import traceback
 from collections.abc import Generator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -90,7 +90,7 @@ def _cure(problems: list[Problem], *, as_json: bool) -> str:
 def _is_nowhere() -> bool:
     """Whether the current folder was removed, which Python and its libraries stumble over."""
     try:
-        os.getcwd()
+        Path.cwd()
     except FileNotFoundError:
         return True
     return False

@@ -22,6 +22,22 @@ class Part(Protocol):
     activity: Activity
 
 
+def part_of(
+    channel: Channel,
+    legs: Part,
+    head: Part,
+    arms: Mapping[Side, Part],
+    hands: Mapping[Side, Part],
+) -> Part | None:
+    """Whom commands of a channel go to; None where the body has no such part."""
+    if channel in ("legs", "head"):
+        return legs if channel == "legs" else head
+    for side in SIDES:
+        if channel in (ARM_CHANNEL[side], HAND_CHANNEL[side]):
+            return (arms if channel == ARM_CHANNEL[side] else hands).get(side)
+    return None
+
+
 def activities(
     legs: Part, head: Part, arms: Mapping[Side, Part], hands: Mapping[Side, Part]
 ) -> dict[Channel, Activity]:

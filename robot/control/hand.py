@@ -21,8 +21,10 @@ from robot.se3 import SE3, Array, Vector3
 MARGIN = 1.25
 PULL_TIME_S, TIGHT_S = 0.01, 1.0  # of a pull: soon felt; gripped harder until it has rested so long
 TARE_S = 5.0
-"""Over so long the sensor's offset is averaged: ten steps of a walk, whose accelerations cancel out;
-a thing that the open hand brushes for a moment hardly counts, a drift of 0.2 N/√s is kept up with."""
+"""Over so long the sensor's offset is averaged: ten steps of a walk, whose accelerations cancel.
+
+A thing that the open hand brushes for a moment hardly counts; a drift of 0.2 N/√s is kept up with.
+"""
 STOPPED = "stopped by something"
 
 

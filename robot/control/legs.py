@@ -14,7 +14,7 @@ from robot.control.walking.gait import Gait
 from robot.control.walking.gait_reference import Reference
 from robot.control.whole_body import Task, WholeBody
 from robot.kinematics.dynamics import Dynamics
-from robot.messages import Activity, OneLeg, Side, Stand, Walk, WalkTo
+from robot.messages import Activity, Landing, OneLeg, Side, Stand, Walk, WalkTo
 from robot.model.body import SIDES, BodyModel
 from robot.physics import GRAVITY_M_S2
 from robot.se3 import Array, wrap_angle
@@ -116,6 +116,13 @@ class Legs:
         self.trunk.turn(yaw_rad, pitch_rad)
         self.trunk.moves = self.trunk.differs()
         return self.trunk.moves
+
+    def landings(self) -> tuple[Landing, ...]:
+        """Where the feet are to land, the next one first."""
+        return tuple(
+            Landing(side=side, x_m=sole.x, y_m=sole.y, yaw_rad=sole.yaw)
+            for side, sole in self.gait.landings
+        )
 
     def _start(self, command_id: int) -> None:
         self.activity = Activity(id=command_id, status="running")

@@ -10,7 +10,7 @@ import numpy as np
 
 from robot.control import screening, starting
 from robot.control.arm import Arm
-from robot.control.channels import activities
+from robot.control.channels import activities, part_of
 from robot.control.foresight import Foresight
 from robot.control.getting_up import GettingUp
 from robot.control.hand import HandControl
@@ -42,7 +42,6 @@ from robot.messages import (
     HandState,
     HoldArm,
     ImuBias,
-    Landing,
     Look,
     Mode,
     MoveArm,
@@ -184,11 +183,7 @@ class ControlLoop:
         """Answer a command that cannot be meant; what the body does goes on."""
         failed = Activity(id=command.id, status="failed", detail=why)
         channel = screening.channel(command)
-        side: Side = "left" if channel.startswith("left") else "right"
-        parts = {"head": self.head, "legs": self.legs}
-        part = parts.get(channel) or (self.arms if channel.endswith("_arm") else self.hands).get(
-            side
-        )
+        part = part_of(channel, self.legs, self.head, self.arms, self.hands)
         if part is None:
             self._refused[channel] = failed
         else:
@@ -440,14 +435,7 @@ class ControlLoop:
             failure=self._failure,
             since_s=self._since_s,
             imu=self.estimator.imu_bias,
-            steps=self._steps(),
-        )
-
-    def _steps(self) -> tuple[Landing, ...]:
-        """Where the feet are to land; a body that lies or damps has no such plans."""
-        planned = self.legs.gait.landings if self.mode == "walk" else ()
-        return tuple(
-            Landing(side=side, x_m=sole.x, y_m=sole.y, yaw_rad=sole.yaw) for side, sole in planned
+            steps=self.legs.landings() if self.mode == "walk" else (),
         )
 
 

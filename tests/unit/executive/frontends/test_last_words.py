@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from pathlib import Path
 
 import pytest
 
@@ -59,7 +60,7 @@ def test_a_current_folder_that_is_gone_is_no_mistake_of_this_software(
     os.chdir(gone)
     gone.rmdir()
     with pytest.raises(FileNotFoundError) as error:
-        os.getcwd()
+        Path.cwd()
     assert ended_by(error.value, as_json=False) == ExitStatus.INVALID
     text = capsys.readouterr().err
     assert text.startswith("Not done:\n  the current folder is not there any more\n")
