@@ -1,7 +1,7 @@
 """The software's emergency stop: a latch. It is no replacement for a switch that cuts the power.
 
 It is the topmost latch: it ends jobs and has the controller sit, so it wants a controller that
-obeys. The lowest is a row of `robot.owner.ladder`, in the process that has the buses, whose stop
+obeys. The lowest is a row of `robot.owner.reactions`, in the process that has the buses, whose stop
 input takes all torque without anybody above; clamps (`robot.control.limits`,
 `robot.drivers.motors.limiter`) know neither.
 """

@@ -26,7 +26,7 @@ from executive.evaluation.campaign import Case, Run
 from executive.evaluation.record import FILE, Record, Results, fingerprint, folder_to_resume
 from executive.frontends import evaluation_asked
 from executive.frontends.composition_root import REALITY
-from executive.frontends.ending import Ending
+from executive.frontends.end_signals import Ending
 from executive.frontends.evaluation_localised import Localised
 from executive.frontends.evaluation_report import Found, save, show, well
 from executive.frontends.exit import last_words

@@ -19,7 +19,7 @@ from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.owned.memory import Change, OwnerMemory
 from robot.errors import ProcessError
 from robot.model import description
-from robot.owner.ladder import DOES
+from robot.owner.reactions import DOES
 from robot.reality.contract import World
 
 How = Literal["kill", "stop", "press"]

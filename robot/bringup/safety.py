@@ -18,7 +18,7 @@ from robot.drivers.motors.can import watching as can_watching
 from robot.drivers.motors.dynamixel import watching as servo_watching
 from robot.drivers.motors.ethernet import watching as board_watching
 from robot.drivers.motors.pwm import watching as pulse_watching
-from robot.owner import ladder
+from robot.owner import reactions
 
 Rows: TypeAlias = list[list[str]]
 
@@ -55,15 +55,15 @@ def owner() -> Rows:
     """What the owner of the buses does alone, the mildest first: when, code, level, how it ends."""
     return [
         [row.when, f"`{row.code}`", _level(row), _ends(row)]
-        for row in sorted(ladder.ROWS, key=lambda row: row.level)
+        for row in sorted(reactions.ROWS, key=lambda row: row.level)
     ]
 
 
-def _level(row: ladder.Row) -> str:
+def _level(row: reactions.Row) -> str:
     return f"{row.level.name}, latched" if row.is_latched else row.level.name
 
 
-def _ends(row: ladder.Row) -> str:
+def _ends(row: reactions.Row) -> str:
     """What ends it. No reset is taken while torque is given."""
     if not row.is_latched:
         return "by the next command"

@@ -2,8 +2,8 @@
 
 Under it, in the driver of real motors, `robot.drivers.motors.limiter` clamps once more by the
 motors' own map and is the last software there is; simulated motors have this one alone. Its trip
-damps until the controller lets it go again; latches of others are `robot.owner.ladder` (below it)
-and `executive.engine.estop` (above).
+damps until the controller lets it go again; latches of others are `robot.owner.reactions` (below
+it) and `executive.engine.estop` (above).
 """
 
 from __future__ import annotations

@@ -16,9 +16,9 @@ from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.holding import Holding
 from robot.drivers.motors.owned.memory import Order
 from robot.model.body import BodyModel
-from robot.owner import ladder
+from robot.owner import reactions
 from robot.owner.balancing import Balancing
-from robot.owner.ladder import Refused, Signs, State
+from robot.owner.reactions import Refused, Signs, State
 from robot.owner.sit import Sitting, Squat
 from robot.owner.standing import Rest, is_even, is_on_its_feet, stands
 
@@ -43,7 +43,7 @@ class Since:
             return 0.0
         if self._from_s is None:
             self._from_s = now_s
-        return max(now_s - self._from_s, 2 * ladder.SLACK_S)
+        return max(now_s - self._from_s, 2 * reactions.SLACK_S)
 
 
 class BusOwner:
@@ -74,7 +74,7 @@ class BusOwner:
         self._forget()
 
     def _forget(self) -> None:
-        self.state, self._signs = ladder.WELL, Signs()
+        self.state, self._signs = reactions.WELL, Signs()
         self._last: MotorCommand | None = None
         self._heard_s: float | None = None
         self._is_sent = self._was_on = False
@@ -113,7 +113,7 @@ class BusOwner:
         self._signs = self._look(
             sample, is_fresh=is_fresh, is_pressed=is_pressed, is_claimed=is_claimed
         )
-        self.state = ladder.after(self.state, self._signs)
+        self.state = reactions.after(self.state, self._signs)
         if self.state.level > Level.OK:
             share = np.abs(sample.motors.tau) / self._body.torque_limit_nm
             self.peak = max(self.peak, float(np.fmax.reduce(share)))  # NaN: it measures none
@@ -132,14 +132,14 @@ class BusOwner:
         signs = self._signs
         if is_pressed is not None:
             signs = signs._replace(stop_s=math.inf if is_pressed else 0.0)
-        answer = ladder.reset(self.state, signs)
+        answer = reactions.reset(self.state, signs)
         if isinstance(answer, State):
             self._forget()
         return answer
 
     def _take(self, order: Order, now_s: float) -> bool:
         """Whether an order is to be carried out."""
-        if now_s > order.deadline_s + ladder.SLACK_S:
+        if now_s > order.deadline_s + reactions.SLACK_S:
             self.stale += 1
             return False
         if self.state.latched:
@@ -172,7 +172,9 @@ class BusOwner:
         lets_go = self._was_on and sample.motors.watchdog
         return Signs(
             silent_s=silent_s,
-            claimed_s=self._claimed.look(now_s, is_so=now_s - self._claimed_at_s < ladder.FREE_S),
+            claimed_s=self._claimed.look(
+                now_s, is_so=now_s - self._claimed_at_s < reactions.FREE_S
+            ),
             astray_s=self._astray.look(now_s, is_so=astray),
             on_feet_s=self._on_feet.look(now_s, is_so=on_feet),
             lowering_s=self._lowering.look(now_s, is_so=lowering),
@@ -218,7 +220,7 @@ class BusOwner:
     @property
     def _balances(self) -> bool:
         """Whether it is being lowered from a step, and not yet by its squat."""
-        return self.state.code in ladder.BALANCED and self._sitting is None
+        return self.state.code in reactions.BALANCED and self._sitting is None
 
     def _stands(self, sample: BodySample) -> bool:
         """Whether the squat can begin here; where it can be balanced else, only at rest."""

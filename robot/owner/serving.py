@@ -31,9 +31,9 @@ from robot.errors import DescriptionError, DriverError
 from robot.messages import MotorAlarm
 from robot.model.body import BodyModel
 from robot.model.description import RobotDescription
-from robot.owner import ladder
-from robot.owner.ladder import BY_CODE, Refused, State
+from robot.owner import reactions
 from robot.owner.owner import BusOwner
+from robot.owner.reactions import BY_CODE, Refused, State
 from robot.owner.sit import Squat, plan
 
 WAITS_S = 0.0012
@@ -174,12 +174,12 @@ class Serving:
             if order.leaves:
                 self._turn = 0
             return
-        if not self._owner.is_waited_for or now_s - self._gave_s < ladder.AT_MOST_S:
+        if not self._owner.is_waited_for or now_s - self._gave_s < reactions.AT_MOST_S:
             return
         silent_s, ready = now_s - self._good_s, self._memory.ready()
         if ready is None or ready.who == self._turn or now_s - ready.stamp_s > READY_S:
             return
-        if silent_s > GIVES_AFTER_S + ladder.SLACK_S or not self._memory.is_claimed():
+        if silent_s > GIVES_AFTER_S + reactions.SLACK_S or not self._memory.is_claimed():
             self._turn, self._gave_s = ready.who, now_s
             self._publish(sample)
             self._tell(f"{now_s:.3f} s, a spare controller has the turn")
@@ -237,7 +237,7 @@ class Serving:
 
     def _is_claimed(self, order: Order | None) -> bool:
         """Whether a controller that lives has claimed the motors; not asked where one commands."""
-        given = self._stamp_s - self._gave_s < ladder.AT_MOST_S
+        given = self._stamp_s - self._gave_s < reactions.AT_MOST_S
         return order is not None or given or self._memory.is_claimed()
 
     def _answer(self) -> None:

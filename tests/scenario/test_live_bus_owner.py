@@ -9,7 +9,7 @@ import pytest
 from robot.bringup import failsafe
 from robot.bringup.live import LiveRuntime
 from robot.clock import WallClock
-from robot.owner.ladder import AT_MOST_S, HOLDS_S
+from robot.owner.reactions import AT_MOST_S, HOLDS_S
 from sim.simulation import Simulation
 from tests.fakes.waiting import eventually
 

@@ -14,7 +14,7 @@ from typing import BinaryIO
 
 import robot
 from executive.frontends.dump.export import check_installed
-from executive.frontends.ending import PATIENCE_S, Ending
+from executive.frontends.end_signals import PATIENCE_S, Ending
 from executive.frontends.new_files import records_of, refuse_inputs, refuse_taken
 from executive.frontends.output import Screen, say
 from executive.journal import journal, past_runs

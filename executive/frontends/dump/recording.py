@@ -12,7 +12,7 @@ from typing import BinaryIO, TypeVar
 from executive.frontends.console.tail import Tail
 from executive.frontends.dump.foxglove import Writer
 from executive.frontends.dump.looks import began_s, looks
-from executive.frontends.ending import Ending
+from executive.frontends.end_signals import Ending
 from executive.journal import journal, motion
 from executive.journal.reader import Reader
 

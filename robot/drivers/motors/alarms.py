@@ -14,7 +14,7 @@ class Level(IntEnum):
 
     HOLD: every joint keeps its last target. SIT: whoever commands lowers the robot
     (`robot.control.lowering`), so that commands pass. DAMP and OFF no driver takes by itself: the
-    owner of the buses does (`robot.owner.ladder`).
+    owner of the buses does (`robot.owner.reactions`).
     """
 
     OK = 0

@@ -2,7 +2,7 @@
 
 After `robot.control.limits`, the controller's clamp, this is the last one before packets, for every
 family of real motors and whoever commands: the controller, or `robot.owner` in its stead. It
-latches nothing: a level that stays is `watching`'s alarm, or a row of `robot.owner.ladder`.
+latches nothing: a level that stays is `watching`'s alarm, or a row of `robot.owner.reactions`.
 
 Whatever comes in leaves inside the limits, or not at all: what is not finite is refused, the rest
 is clipped and counted. Torque is limited as the firmware will make it of the newest measurement:

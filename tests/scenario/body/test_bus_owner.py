@@ -11,8 +11,8 @@ from robot.drivers.motors.owned.memory import Order
 from robot.messages import WalkTo
 from robot.model.body import BodyModel
 from robot.owner.balancing import OwnController
-from robot.owner.ladder import WELL
 from robot.owner.owner import BusOwner
+from robot.owner.reactions import WELL
 from robot.owner.sit import plan
 from sim.simulation import Simulation
 

@@ -10,7 +10,7 @@ import pytest
 from executive.evaluation import campaign, pool, report
 from executive.evaluation.campaign import Case, Run
 from executive.evaluation.record import FILE, Record, Results, fingerprint, folder_to_resume
-from executive.frontends import ending, evaluation
+from executive.frontends import end_signals, evaluation
 from executive.frontends.options import Eval
 from robot.errors import ConfigError
 from sim.simulation import Simulation
@@ -243,8 +243,8 @@ def test_a_fault_brings_the_help_it_takes():
 
 def test_a_wish_to_end_is_heard_and_a_late_second_one_ends_it_at_once(monkeypatch):
     clock, left = Hands(), []
-    monkeypatch.setattr(ending.Ending, "_leave", lambda _: left.append(clock.s))
-    with ending.Ending(clock) as heard:
+    monkeypatch.setattr(end_signals.Ending, "_leave", lambda _: left.append(clock.s))
+    with end_signals.Ending(clock) as heard:
         for number, at_s in ((signal.SIGINT, 0.0), (signal.SIGTERM, 0.1), (signal.SIGHUP, 9.0)):
             assert not left
             clock.s = at_s

@@ -17,7 +17,7 @@ import pytest
 from executive.frontends.dump import record
 from executive.frontends.dump.command import Asked, dump
 from executive.frontends.dump.recording import Recording, follow
-from executive.frontends.ending import Ending
+from executive.frontends.end_signals import Ending
 from executive.journal import journal, motion
 from executive.journal.motion import Moment
 from robot.clock import WallClock

@@ -8,8 +8,8 @@ from robot.drivers.motor_bus import MotorCommand, MotorState
 from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.owned.memory import Order
 from robot.owner.balancing import OwnController
-from robot.owner.ladder import WELL, Refused
 from robot.owner.owner import BusOwner
+from robot.owner.reactions import WELL, Refused
 from robot.physics import GRAVITY_M_S2
 
 PERIOD_S = 0.002

@@ -10,8 +10,8 @@ from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.owned.driver import OwnedMotors
 from robot.drivers.motors.owned.memory import Order, OwnerMemory
 from robot.errors import DriverError
-from robot.owner.ladder import AT_MOST_S, HOLDS_S
 from robot.owner.owner import BusOwner
+from robot.owner.reactions import AT_MOST_S, HOLDS_S
 from robot.owner.serving import GIVES_AFTER_S, WAITS_S, WAITS_SIMULATED_S, Serving
 from robot.physics import GRAVITY_M_S2
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import pytest
 
 from robot.drivers.motors.alarms import Level
-from robot.owner.ladder import (
+from robot.owner.reactions import (
     AT_MOST_S,
     BY_CODE,
     HOLDS_S,
