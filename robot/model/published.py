@@ -9,6 +9,7 @@ import msgspec
 
 import robot
 from robot.errors import DescriptionError, Problem
+from robot.files import quantities as q
 
 CHECKOUT = Path(robot.__file__).resolve().parent.parent
 """The folder that this project is in, where it is run from its sources."""
@@ -25,7 +26,7 @@ class Published(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         source: who publishes it, under what licence.
     """
 
-    places: tuple[str, ...]
+    places: q.Several[str]
     without: tuple[str, ...] = ()
     cure: str
     source: str
