@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from intents.english.substitution import substitute
 from intents.english.words import lexicon
 from intents.english.words.lexer import tokenize
-from intents.goals import Goal, ObjectQuery, Person
+from intents.goals import Goal, ObjectQuery, Person, each
 from intents.grounding import Entity
 from intents.outcomes import Choice, Question
 from intents.relations import Viewpoint
@@ -48,6 +48,19 @@ class Context(msgspec.Struct, frozen=True, kw_only=True):
 
 MAX_SAID = 12
 """Turns that are remembered in words."""
+
+
+def of_goals(goals: tuple[Goal, ...]) -> Context:
+    """What a sentence may refer to after such goals, in whatever words they were asked for."""
+    things: list[ObjectQuery] = []
+    people: list[Person] = []
+    for goal in each(goals):
+        for slot in goal.__struct_fields__:
+            value = getattr(goal, slot)
+            things += [value] if isinstance(value, ObjectQuery) else []
+            people += [value] if isinstance(value, Person) else []
+    thing, person = (found[-1] if found else None for found in (things, people))
+    return Context(object=thing, person=person, goals=goals)
 
 
 def noted(context: Context, person: str, robot: str) -> Context:

@@ -32,6 +32,7 @@ from executive.runs.runtimes import Setup
 from executive.runs.session import Session
 from executive.runs.summary import Summary, last_lines
 from executive.runs.task_run import Assignment, Progress, Show
+from intents.goals import Goal
 from robot.bringup.mailbox import Handle
 from robot.clock import WallClock
 
@@ -46,12 +47,17 @@ class Prepared(msgspec.Struct, frozen=True, kw_only=True):
     left: Left | None = None
 
 
-Attend = Callable[[Session, Handle | None, Callable[[str], None]], AbstractContextManager[None]]
-"""Takes orders from pages while a session works, and says a line to people."""
+Attend = Callable[
+    [Session, Handle | None, Callable[[str], None], tuple[Goal, ...]], AbstractContextManager[None]
+]
+"""Takes orders from pages while a session works on goals, and says a line to people."""
 
 
 def _nobody(
-    _session: Session, _handle: Handle | None, _out: Callable[[str], None]
+    _session: Session,
+    _handle: Handle | None,
+    _out: Callable[[str], None],
+    _goals: tuple[Goal, ...],
 ) -> AbstractContextManager[None]:
     """Take no orders."""
     return nullcontext()
@@ -105,8 +111,12 @@ def carry_out(
             def out(text: str) -> None:
                 say(text, err=options.as_json)
 
+            goals = prepared.assignment.understood.goals
             summary = _work_off(
-                prepared, shown, handle, attend=lambda session: steered(session, handle, out)
+                prepared,
+                shown,
+                handle,
+                attend=lambda session: steered(session, handle, out, goals),
             )
             say_how_it_ended(summary, as_json=options.as_json)  # before what is still written
         speech.finish()

@@ -20,6 +20,8 @@ from executive.frontends.prompt.shell import Shell
 from executive.frontends.prompt.view import Observer, View
 from executive.meaning.request import Understood
 from executive.runs.session import Session
+from intents.context import of_goals
+from intents.goals import Goal
 from robot.bringup.mailbox import Handle
 from robot.clock import Clock, WallClock
 from robot.failures import Failure
@@ -99,7 +101,10 @@ class Attached:
 
 @contextmanager
 def attached(
-    session: Session, handle: Handle | None, out: Callable[[str], None]
+    session: Session,
+    handle: Handle | None,
+    out: Callable[[str], None],
+    goals: tuple[Goal, ...] = (),
 ) -> Generator[None]:
     """Let pages steer a session that somebody else runs, inside the block.
 
@@ -107,6 +112,7 @@ def attached(
         session: of a run that has a folder, or nobody finds it.
         handle: of a live robot.
         out: says a line to people.
+        goals: that the session was asked for: "now the blue one" goes on from them.
     """
     folder = session.setup.folder
     if folder is None:
@@ -114,5 +120,6 @@ def attached(
         return
     robot = Attached(session, wall=WallClock())
     shell = Shell(robot, out, table=table.commands, folder=folder)
+    shell.dialogue.context = of_goals(goals)
     with attended(shell, folder, handle):
         yield

@@ -35,6 +35,10 @@ _OPENS = (
     | unlisted("let do all both each every on upon in at from under with which")
 )
 """What an order or a question begins with, besides its verb."""
+_ONE = ("one", "ones", "other", "others")
+"""What stands for a thing that was named before."""
+_AFTER_THINGS = (COMMA, FULL_STOP, "please", "too", "thanks")
+_MOST_ADJECTIVES = 3
 _NEVER_ALONE = unlisted(
     "are na man great sure good fine super cool sweet ja ben mira bon ta no bas"
 )
@@ -60,8 +64,26 @@ def without_particles(tokens: list[Token], index: NameIndex) -> list[Token]:
         if end == at:
             kept.append(tokens[at])
             end += 1
+        elif (turns := _turns_to(said, at, end, index)) is not None:
+            kept.append(Token("then", tokens[turns].raw))
         at = end
     return kept
+
+
+def _turns_to(said: list[str], begin: int, end: int, index: NameIndex) -> int | None:
+    """Where the "now" of "now the blue one" stands, with which a run of particles ends.
+
+    A thing and nothing else follows it: it goes on from what was asked for last, as "then" does.
+    """
+    last = end - 1 - (said[end - 1] == COMMA)
+    if begin or last < begin or said[last] != "now" or said[end] not in DETERMINERS:
+        return None
+    for at in range(end + 1, min(len(said), end + 2 + _MOST_ADJECTIVES)):
+        name = index.match(said, at)
+        rest = said[at + 1 :] if said[at] in _ONE else said[name.end :] if name else None
+        if rest is not None and all(word in _AFTER_THINGS for word in rest):
+            return last
+    return None
 
 
 def _run_end(said: list[str], begin: int, index: NameIndex) -> int:

@@ -1,6 +1,7 @@
 """What a sentence means after another one: answers that point, and the last goal anew."""
 
 import pytest
+from msgspec.structs import replace
 
 from intents.context import Context
 from intents.goals import Goal, to_builtins
@@ -66,6 +67,10 @@ def test_an_answer_that_points_at_another_thing_is_none() -> None:
         ("put the hammer on the ledge", "and the white jar on the bench",
          "put the white jar on the bench"),
         ("take the green jar", "now the other one", "take the white jar"),
+        ("take the green jar", "now the white one", "take the white jar"),
+        ("put the hammer on the ledge", "Okay, now the green jar.",
+         "put the green jar on the ledge"),
+        ("bring me the hammer", "now, the white jar please", "bring me the white jar"),
         ("bring me the hammer", "what about the white jar?", "bring me the white jar"),
         ("greet Emil", "and Noor", "greet Noor"),
         ("walk forward 20 cm", "a bit more", "walk forward 10 cm"),
@@ -79,6 +84,14 @@ def test_what_follows_does_the_last_goal_anew(before: str, said: str, plainly: s
 @pytest.mark.parametrize("said", ["more", "and the hammer", "the other one"])
 def test_nothing_follows_nothing(said: str) -> None:
     assert not isinstance(hear(said, WORDS)[0], Goals)
+
+
+@pytest.mark.parametrize("said", ["now the hammer is on the bench", "now where is the hammer"])
+def test_what_is_told_or_asked_now_is_no_other_thing(said: str) -> None:
+    outcome, _ = hear("take the green jar", WORDS, context=SEEN)
+    assert isinstance(outcome, Goals)
+    told, _ = hear(said, WORDS, context=replace(SEEN, goals=outcome.goals))
+    assert not (isinstance(told, Goals) and to_builtins(told.goals)[0].get("kind") == "pick")
 
 
 def test_beside_another_thing_is_where_that_thing_stands() -> None:

@@ -10,6 +10,7 @@ from executive.frontends.prompt.command import Command, anything, begins, one_of
 from executive.frontends.prompt.commands.job_words import is_number, number_of, row
 from executive.frontends.prompt.shell import Shell
 from executive.missions import fault_plans
+from intents.english.words.lexicon import DETERMINERS
 from robot.errors import ConfigError
 from robot.files.misfits import listed, shown
 
@@ -28,7 +29,7 @@ def commands(shell: Shell) -> tuple[Command, ...]:
         ),
         Command(
             name="now", usage="now SENTENCE", summary="do it at once; what is under way comes back",
-            run=does.now, accepts=bool, takes_sentence=True,
+            run=does.now, accepts=_is_no_thing, takes_sentence=True,
         ),
         Command(
             name="run", usage="run MISSION [KEY=VALUE ...]",
@@ -78,6 +79,11 @@ def commands(shell: Shell) -> tuple[Command, ...]:
             run=does.inject, accepts=anything, choices=fault_plans.names,
         ),
     )  # fmt: skip
+
+
+def _is_no_thing(rest: str) -> bool:
+    """Whether a sentence may follow `now`, and no mere thing: "now the blue one" goes on."""
+    return bool(rest) and rest.split(maxsplit=1)[0].casefold() not in DETERMINERS
 
 
 class _Steering:
