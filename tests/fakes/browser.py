@@ -28,13 +28,14 @@ START_S, ANSWER_S, POLL_S = HANG_S, HANG_S, 0.05
 class Browser:
     """A context manager; pages are opened by `page`."""
 
-    def __init__(self) -> None:
+    def __init__(self, *more: str) -> None:
+        """Start it, with more options than it always has."""
         self._folder = tempfile.TemporaryDirectory(prefix="humanoid-browser-")
         command = [
             BROWSER, "--headless=new", "--no-sandbox", "--remote-debugging-port=0",
             "--remote-allow-origins=*", f"--user-data-dir={self._folder.name}", "--no-first-run",
             "--disable-background-networking", "--disable-extensions", "--mute-audio",
-            "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "about:blank",
+            "--use-angle=swiftshader", "--enable-unsafe-swiftshader", *more, "about:blank",
         ]  # fmt: skip
         self._process = subprocess.Popen(
             command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
@@ -192,6 +193,16 @@ class Page(Devtools):
             f"(() => {{ const b = document.querySelector({json.dumps(selector)})"
             ".getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()"
         )
+
+    def hold(self, selector: str, hold_s: float) -> None:
+        """Press the middle of an element, and let it go after a while."""
+        self.call("Page.bringToFront")
+        x, y = self._middle(selector)
+        for kind in ("mousePressed", "mouseReleased"):
+            self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=1,
+                      clickCount=1)  # fmt: skip
+            if kind == "mousePressed":
+                time.sleep(hold_s)
 
     def drag(self, start: tuple[float, float], end: tuple[float, float]) -> None:
         """Drag with the left button."""

@@ -66,6 +66,7 @@ class Told:
         self.said: list[str] = []
         self.out = self.said.append
         self.did: list[str] = []
+        self.read_back: list[object] = []
         self.stops = self.refused = self.asked_back = 0
         self.stopped_s: list[float] = []
         self.asked: tuple[str, tuple[str, ...]] | None = None
@@ -97,7 +98,11 @@ class Told:
             self.stop("")
         return text == "stop"
 
-    def halt_at_once(self, text, *, busy=None):
+    @property
+    def asks(self):
+        return self.asked is not None
+
+    def halt_at_once(self, text, *, busy=None, spoken=False):
         if text == "wait":
             self.did.append("halt")
         return text == "wait"
@@ -124,7 +129,8 @@ class Told:
             case _:
                 self.begin(text)
 
-    def hear(self, text, *, stops):
+    def hear(self, text, *, stops, risk=None):
+        self.read_back.append(risk)
         self.line(text, stops=stops)
 
     def help(self, text):

@@ -522,3 +522,36 @@ def test_a_fault_is_injected_by_a_press_and_by_the_form(browser, shell):
         )
         page.wait("document.querySelector('#talk').textContent.includes('Injected: heat')")
         assert page.mistakes() == []
+
+
+SPOKEN = Path(__file__).parents[1] / "unit" / "intents" / "speech" / "sounds" / "command.wav"
+
+
+def test_what_is_said_into_the_page_is_read_back_and_done(shell):
+    """By a browser whose microphone is a recording."""
+    microphone = (
+        "--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream",
+        f"--use-file-for-fake-audio-capture={SPOKEN}%noloop",
+    )  # fmt: skip
+    with Browser(*microphone) as made, served(shell.folder) as console:
+        page = made.page(console.url)
+        page.wait("page.drawn > 0 && page.steers")
+        page.hold("#mic", 3.5)
+        page.wait("page.asks && page.asks.choices.includes('yes')")
+        assert "put it on the shelf" in page.text("#talk")
+        assert not shell.robot.busy
+        page.click("#ask button")
+        page.wait("parts.jobs.some(([, text]) => text.includes('red cup'))")
+        assert page.eval("microphone.stream") is None  # nobody listens once it is let go
+        assert page.mistakes() == []
+        shell.stop("the test is over")
+
+
+def test_without_a_microphone_the_page_says_so(browser, shell):
+    with served(shell.folder) as console:
+        page = browser.page(console.url)
+        page.wait("page.drawn > 0 && page.steers")
+        page.hold("#mic", 0.3)
+        page.wait("document.querySelector('#talk').textContent.includes('Nothing can be said')")
+        assert page.eval("document.querySelector('#mic').className") == ""
+        assert page.mistakes() == []

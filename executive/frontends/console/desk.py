@@ -18,8 +18,9 @@ from typing import Any, Protocol
 
 import msgspec
 
-from executive.frontends.emergency import undoes
+from executive.frontends.emergency import AT_THE_ROBOT, undoes
 from executive.frontends.line_server import LineServer, is_own
+from executive.frontends.listening.reading_back import Risk, doubtful_risk, heard_risk
 from executive.frontends.output import as_mistake
 from executive.frontends.printer import Printer
 from robot.closing import Closing
@@ -61,15 +62,20 @@ class Of(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Order(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """What a page wants: a button that was pressed (`do`), or a `line` as at the prompt.
+    """What a page wants: a button that was pressed (`do`), or a `line` as at the prompt, or words.
 
     Attributes:
+        heard: what was said into the page's microphone, in place of a line; with `do` "stop" a cry.
+        doubtful: the words of it that were not heard well; `sure`: whether it was heard well.
         begun_s: when it came from the page, in seconds since boot. Stops overtake what a page said
             before them, and that is about them still when it arrives (None: as when it arrives).
     """
 
     do: str = ""
     line: str = ""
+    heard: str = ""
+    doubtful: tuple[str, ...] = ()
+    sure: bool = True
     begun_s: float | None = None
 
 
@@ -104,8 +110,21 @@ class Steered(Protocol):
         """Stop if a line is a cry to stop; never waits."""
         ...
 
-    def halt_at_once(self, text: str) -> bool:
+    @property
+    def asks(self) -> bool:
+        """Whether a person is asked something."""
+        ...
+
+    def halt_at_once(self, text: str, *, busy: bool | None = None, spoken: bool = False) -> bool:
         """Halt if a line is a cry that ends nothing; never waits."""
+        ...
+
+    def help(self, text: str) -> bool:
+        """Tell a job that asks for help what a line answers; whether it is an answer."""
+        ...
+
+    def hear(self, text: str, *, stops: int, risk: Risk | None = None) -> None:
+        """Do what a sentence says that was heard when `stops` was so much."""
         ...
 
     def line(self, text: str, *, stops: int | None = None) -> None:
@@ -200,6 +219,8 @@ class Desk(Closing):
             stops = self._shell.stops_by(order.begun_s)
             if order.do:
                 self._press(order.do, stops)
+            elif order.heard.strip():
+                self._take_heard(order, stops)
             elif order.line.strip():
                 self._take(order.line, stops)
         except RobotError as error:
@@ -237,16 +258,41 @@ class Desk(Closing):
             shell.out("That is for the terminal; the page is just closed.")
             return
         shell.halt_at_once(text)
+        self._work_off(lambda: shell.line(text, stops=stops))
+
+    def _take_heard(self, order: Order, stops: int) -> None:
+        """What was said into a page: as `humanoid listen` takes it; no command of the prompt."""
+        shell, text = self._shell, order.heard[:MAX_LINE]
+        if undoes(text):
+            shell.out(AT_THE_ROBOT)
+            return
+        stopped = shell.stop_at_once(text)
+        if not stopped and self._waiting >= MOST_LINES:
+            shell.out("Too many lines at once: that one is left out.")
+            return
+        self._server.tell(_news(you=f"“{text}”"))
+        self._printer(f"(page, said) > {printable_line(text)}")
+        if stopped:
+            return
+        if shell.asks and not order.sure:
+            shell.out("I did not hear that well. Please say it again.")
+        elif not shell.help(text):
+            shell.halt_at_once(text, spoken=True)
+            risk = heard_risk if order.sure else doubtful_risk(order.doubtful)
+            self._work_off(lambda: shell.hear(text, stops=stops, risk=risk))
+
+    def _work_off(self, does: Callable[[], None]) -> None:
+        """Do it after what came before it, in the worker's thread."""
         self._waiting += 1
         try:
-            self._worker.submit(self._line, text, stops)
+            self._worker.submit(self._done, does)
         except RuntimeError:  # the run is over
             if not self._closing.is_set():
                 raise
 
-    def _line(self, text: str, stops: int) -> None:
+    def _done(self, does: Callable[[], None]) -> None:
         try:
-            self._shell.line(text, stops=stops)
+            does()
         except Exception as error:  # in this software: the robot goes on
             self._shell.out(as_mistake(error))
         finally:

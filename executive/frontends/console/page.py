@@ -9,8 +9,8 @@ from string import Template
 
 SCRIPTS = (
     "1_maths.js", "2_shapes.js", "3_drawing.js", "3_marks.js", "4_moving.js", "4_sensing.js",
-    "5_panels.js", "5_plans.js", "5_camera.js", "5_motors.js", "5_faults.js", "6_link.js",
-    "7_main.js",
+    "5_panels.js", "5_plans.js", "5_camera.js", "5_motors.js", "5_faults.js",
+    "5_microphone.js", "6_link.js", "7_main.js",
 )  # fmt: skip
 
 

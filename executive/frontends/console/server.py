@@ -11,11 +11,11 @@ from __future__ import annotations
 import asyncio
 import secrets
 import socket
-from collections.abc import Callable, Mapping
-from contextlib import suppress
+from collections.abc import Callable
+from contextlib import closing, suppress
 from http import HTTPStatus
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 from websockets.asyncio.server import Server, ServerConnection, serve
@@ -27,24 +27,22 @@ from executive.frontends.console.address import HOST, Address, url
 from executive.frontends.console.desk import Order
 from executive.frontends.console.door import TOKEN_S, Door
 from executive.frontends.console.faults import forms
-from executive.frontends.console.following import Following
+from executive.frontends.console.hearing import Hearing, Said
 from executive.frontends.console.pace import Pace
 from executive.frontends.console.page import page
 from executive.frontends.console.peer import Peers
 from executive.frontends.console.pictures import Place
 from executive.frontends.console.proof import CONSOLE, PAGE, fresh, holds, proof
+from executive.frontends.console.showing import MakeScene, Show
 from executive.frontends.console.steering import Steering
 from executive.frontends.console.telling import told
 from executive.frontends.output import say
 from executive.frontends.since_boot import now_s
 from robot.errors import RobotError
 from robot.person_distances import PERSON_RADIUS_M, ZONE_M
-from robot.reality.visual_scene import VisualScene
 
 PERIOD_S = 0.05
 """Between two messages to a page: as often as the robot thinks."""
-TELL_S = 0.2
-"""Between two looks at what happened."""
 LOOK_SHARE = 0.1
 """Of the time, what looking back for one page may take: others wait for it."""
 BATCH = 1000
@@ -55,17 +53,16 @@ MOST_PAGES = 16
 MAX_MESSAGE = 1 << 16
 NOBODY = "Nobody takes orders from this page: no robot is at work here."
 TOO_MUCH = "Too much at once: until this page sends less, only a stop is heeded."
+UNHEARD = "Nothing was heard: hold the button while you speak."
 BACKLOG = 16
 """Connections taken at a time: what comes at once costs no more files than that."""
-
-MakeScene = Callable[[Mapping[str, Any]], VisualScene | str]
-"""What the world of a run looks like that was started with this, or why that is not known."""
 
 
 class Wish(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """What a page sends: its `proof` first (proof.py), then when it looks at, or an `Order`.
 
-    `pictures` are the kinds of pictures that it shows now, of that time.
+    `pictures` are the kinds of pictures that it shows now, of that time. `talk` says that the
+    button of its microphone was pressed or let go, `sound` is what is said meanwhile (hearing.py).
     """
 
     proof: str = ""
@@ -74,62 +71,8 @@ class Wish(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     pictures: tuple[str, ...] | None = None
     line: str = ""
     do: str = ""
-
-
-class Show:
-    """A run that is shown, with what it looks like.
-
-    Attributes:
-        following: reads it.
-        steering: hands on what pages want, while somebody takes it.
-        scene: as JSON; empty until it is known.
-    """
-
-    def __init__(self, folder: Path, make_scene: MakeScene) -> None:
-        """Begin to make the scene in another thread."""
-        self.following = Following(folder)
-        self.steering = Steering(folder, now_s=lambda: self.following.run.end_s)
-        self.scene = b""
-        self.parts: dict[str, bytes] = {}
-        self.live = self.following.live
-        self._make_scene = make_scene
-        self._told_s, self._untold = 0.0, True
-        self._making: asyncio.Task[None] | None = None
-        self._steering = asyncio.create_task(self.steering.work())
-
-    async def look(self, now_s: float) -> None:
-        """Read on, and work out what is new."""
-        if self._making is None and self.following.run.events:
-            self._making = asyncio.create_task(self._make())
-        while self.following.read():
-            self._untold = True
-            await asyncio.sleep(0)  # others are told meanwhile
-        if now_s >= self._told_s + TELL_S:
-            self._told_s = now_s
-            self._tell()
-
-    async def look_last(self) -> None:
-        """Read the rest of a run that is over, though who has run it holds its folder still."""
-        while self.following.read():
-            self._untold = True
-        self._tell()
-        self.live = False
-
-    def _tell(self) -> None:
-        self.live = self.following.live
-        if self._untold:
-            self._untold = False
-            parts = told(self.following.run) | {"left_out": self.following.left_out}
-            self.parts = {key: _json(part) for key, part in parts.items()}
-
-    async def _make(self) -> None:
-        made = await asyncio.to_thread(self._make_scene, self.following.run.about)
-        self.scene = _json({"problem": made} if isinstance(made, str) else made)
-
-    def close(self) -> None:
-        """Read no more, and steer no more."""
-        self._steering.cancel()
-        self.following.close()
+    talk: Literal["begin", "end", ""] = ""
+    sound: bytes = b""
 
 
 class PageServer:
@@ -163,6 +106,7 @@ class PageServer:
         self._pages = 0
         self._door = Door(Peers())
         self._short = False
+        self._hearing = Hearing(self._heard_said, self._tell_all)
 
     async def open(self, listening: socket.socket) -> Server:
         """Serve on a socket that listens, on this machine alone."""
@@ -193,15 +137,16 @@ class PageServer:
     async def follow(self) -> None:
         """Read the run that is to be shown, for ever."""
         clock, look_s = asyncio.get_running_loop().time, 0.0
-        while True:
-            begun_s = clock()
-            with suppress(OSError, RobotError):  # no file can be opened now: it is looked again
-                if begun_s >= look_s:
-                    look_s = begun_s + 1.0
-                    self._choose()
-                if self.show is not None:
-                    await self.show.look(begun_s)
-            await asyncio.sleep(max(0.0, begun_s + PERIOD_S - clock()))
+        with closing(self._hearing):
+            while True:
+                begun_s = clock()
+                with suppress(OSError, RobotError):  # no file can be opened now: it is looked again
+                    if begun_s >= look_s:
+                        look_s = begun_s + 1.0
+                        self._choose()
+                    if self.show is not None:
+                        await self.show.look(begun_s)
+                await asyncio.sleep(max(0.0, begun_s + PERIOD_S - clock()))
 
     async def follow_to_the_end(self) -> None:
         """Read the rest of the run that is shown, which is over."""
@@ -257,6 +202,7 @@ class PageServer:
                 await self._hear(connection, viewer)
             finally:
                 telling.cancel()
+                self._hearing.end(viewer, replying=False)
                 self._pages -= 1
 
     async def _is_known(self, connection: ServerConnection) -> bool:
@@ -277,6 +223,10 @@ class PageServer:
             wish = _wish(message)
             if wish is None:
                 continue
+            if wish.talk or wish.sound:
+                if answer := self._listened(viewer, wish):
+                    await connection.send(_json({"word": {"out": answer}}), text=True)
+                continue
             if not (wish.do or wish.line):
                 viewer.wishes(wish)
                 continue
@@ -286,6 +236,38 @@ class PageServer:
                     await connection.send(_json({"word": {"out": TOO_MUCH}}), text=True)
             elif self.show is None or not self.show.steering.send(order):
                 await connection.send(_json({"word": {"out": NOBODY}}), text=True)
+
+    # --- what is said into a page ---
+
+    def _listened(self, viewer: Viewer, wish: Wish) -> str:
+        """Take what a page's microphone hears; what the page is to be told, or empty."""
+        show = self.show
+        if wish.talk == "begin":
+            if show is None or not show.steering.reaches:
+                return NOBODY
+            return self._hearing.begin(viewer, show.following.run.about)
+        replying = show is not None and show.steering.asked
+        answer = self._hearing.push(viewer, wish.sound, replying=replying) if wish.sound else ""
+        if wish.talk == "end":
+            self._hearing.end(viewer, replying=replying)
+        return answer
+
+    def _heard_said(self, said: Said, begun_s: float) -> None:
+        """Hand on what was said; a halt before the end of what is being said comes with that."""
+        if said.kind == "ignored":
+            self._tell_all(f"“{said.text}” passed over: {said.why}." if said.text else UNHEARD)
+        elif said.kind != "halt" and self.show is not None:
+            cry = "stop" if said.kind == "stop" else ""
+            order = Order(
+                do=cry, heard="" if cry else said.text, sure=said.sure, doubtful=said.doubtful,
+                begun_s=begun_s,
+            )  # fmt: skip
+            if not self.show.steering.send(order):
+                self._tell_all(NOBODY)
+
+    def _tell_all(self, text: str) -> None:
+        if self.show is not None:
+            self.show.steering.say(text)
 
 
 class Viewer:

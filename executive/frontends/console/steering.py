@@ -11,7 +11,7 @@ import os
 import stat
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 
@@ -125,9 +125,21 @@ class Steering:
             return
         if "out" in news:
             self._cry = None
+        self._keep(news)
+
+    def say(self, text: str) -> None:
+        """Tell every page something that is not the robot's."""
+        self._keep({"out": text})
+
+    def _keep(self, news: Mapping[str, object]) -> None:
         told = {"t_s": round(self._now_s(), 3), **news}
         self.words.append(msgspec.json.encode({"word": told}))
         self.count += 1
+
+    @property
+    def asked(self) -> bool:
+        """Whether the robot asks a person something."""
+        return self.asks not in (b"", b"null")
 
     @property
     def first(self) -> int:

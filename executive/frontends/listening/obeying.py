@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
 from executive.frontends.emergency import emergency
 from executive.frontends.launching import from_plain_options
 from executive.frontends.listening.hearing import audio_errors, ear, sound
 from executive.frontends.listening.options import Listen
+from executive.frontends.listening.reading_back import Risk, doubtful_risk, heard_risk
 from executive.frontends.output import as_mistake, say
 from executive.frontends.prompt import cli
 from executive.frontends.prompt.shell import Shell
 from executive.frontends.speaking import Speech, able
 from executive.journal.journal import Event
-from intents import goals as g
-from intents.goals import Goal, each
 from intents.risks import risk
 from intents.speech.audio import RATE_HZ
 from intents.speech.ear import Ear, Spoken
@@ -27,8 +25,6 @@ from robot.bringup.mailbox import Handle
 from robot.exit_status import ExitStatus
 
 _SENTENCE = re.compile(r"(?<=[.!?;])\s+")
-HARMLESS = (g.Stop, g.Pause, g.Resume, g.Cancel, g.Report, g.Say, g.Answer, g.Wait)
-"""Goals that move nothing, and those that only end or hold what is under way."""
 
 
 def obey(options: Listen, handle: Handle | None = None) -> int:
@@ -66,24 +62,6 @@ def _converse(options: Listen, handle: Handle | None, speech: Speech) -> int:
         status = conversation.run(options)
     speech.finish()
     return status
-
-
-def heard_risk(goals: tuple[Goal, ...]) -> str:
-    """Why goals that were heard are read back: whatever moves the robot is."""
-    known = risk(goals)
-    moves = any(not isinstance(goal, HARMLESS) for goal in each(goals))
-    return known or ("that is what I heard" if moves else "")
-
-
-def doubtful_risk(one: Spoken) -> Callable[[tuple[Goal, ...]], str]:
-    """Why goals that were not heard clearly are read back: whatever may move the robot is."""
-    which = f"“{' '.join(one.doubtful)}”" if one.doubtful else "that"
-
-    def why(goals: tuple[Goal, ...]) -> str:
-        moves = any(isinstance(goal, g.Resume) for goal in each(goals))
-        return f"I am not sure that I heard {which} right" if moves or heard_risk(goals) else ""
-
-    return why
 
 
 REMEMBERED = 5000
@@ -202,9 +180,9 @@ class Conversation:
 
     def _do(self, one: Spoken, stops: int) -> None:
         """One sentence; a mistake in this software must not end the listening."""
-        self._shell.dialogue.risk = self._risk if one.sure else doubtful_risk(one)
+        read_back: Risk = self._risk if one.sure else doubtful_risk(one.doubtful)
         try:
-            self._shell.hear(one.text, stops=stops)
+            self._shell.hear(one.text, stops=stops, risk=read_back)
         except Exception as error:
             self._shell.out(as_mistake(error))
         self._ear.replying = self._shell.asks

@@ -248,19 +248,31 @@ class Shell(Answering):
         self.brake.halt.on = self.brake.halt.told = True
         self.ask_to_go_on()
 
-    def hear(self, text: str, *, stops: int) -> None:
-        """Do what a sentence says that was heard when `stops` was so much; never raises for it."""
-        with self._turn(stops):
+    def hear(
+        self, text: str, *, stops: int, risk: Callable[[tuple[Goal, ...]], str] | None = None
+    ) -> None:
+        """Do what a sentence says that was heard when `stops` was so much; never raises for it.
+
+        `risk` says why its goals are read back (None: as those of a line that was typed).
+        """
+        with self._turn(stops, risk=risk):
             if self.halt_at_once(text, spoken=True):
                 self._take_halted(text)
             elif not self._names_jobs(text):
                 self.sentence(text)
 
     @contextmanager
-    def _turn(self, stops: int, *, afar: bool = False) -> Generator[None]:
+    def _turn(
+        self,
+        stops: int,
+        *,
+        afar: bool = False,
+        risk: Callable[[tuple[Goal, ...]], str] | None = None,
+    ) -> Generator[None]:
         """One line: people at the terminal and at pages take turns."""
         with self._one_line:
             self.brake.stops_before = stops
+            typed, self.dialogue.risk = self.dialogue.risk, risk or self.dialogue.risk
             self._afar = afar
             try:
                 yield
@@ -268,6 +280,7 @@ class Shell(Answering):
                 self.refuse(f"Not done: {error}")
             finally:
                 self.brake.stops_before = None
+                self.dialogue.risk = typed
             self.ask_to_go_on()
 
     def sentence(self, text: str, *, urgent: bool = False) -> None:

@@ -393,6 +393,11 @@ $("fault-kind").onchange = () => faults.form();
 $("fault-form").onsubmit = (event) => { event.preventDefault(); faults.send(); };
 for (const tab of document.querySelectorAll("#tabs button")) tab.onclick = () => showTab(tab.dataset.show);
 
+$("mic").addEventListener("pointerdown", (event) => { event.preventDefault(); $("mic").setPointerCapture(event.pointerId); microphone.press(); });
+for (const kind of ["pointerup", "pointercancel", "lostpointercapture"]) $("mic").addEventListener(kind, () => microphone.release());
+document.addEventListener("keyup", (event) => { if (event.key.toLowerCase() === "v") microphone.release(); }, true);
+window.addEventListener("blur", () => microphone.release());
+
 document.addEventListener("keydown", (event) => {
   if (event.key === "Escape") { event.preventDefault(); stop(); return; }
   const typing = ["INPUT", "SELECT", "TEXTAREA"].includes(event.target.tagName) && event.target.id !== "slider";
@@ -400,7 +405,7 @@ document.addEventListener("keydown", (event) => {
   const does = {
     " ": () => play(!page.playing), f: () => $("follow").click(), o: () => $("all").click(), t: () => $("above").click(),
     n: () => $("names").click(), c: () => $("eye").click(), End: () => $("now").click(), ",": () => goTo(when() - 0.05), ".": () => goTo(when() + 0.05),
-    "/": () => $("line").focus(),
+    "/": () => $("line").focus(), v: () => microphone.press(),
   }[event.key];
   if (does && !(event.key === " " && event.target.tagName === "BUTTON")) { event.preventDefault(); does(); }
 }, true);

@@ -12,7 +12,10 @@ import pytest
 
 from executive.frontends.console import desk as desks
 from executive.frontends.console.desk import FILE, Desk
+from executive.frontends.emergency import AT_THE_ROBOT
+from executive.frontends.listening.reading_back import heard_risk
 from executive.frontends.since_boot import now_s
+from intents.goals import GoTo, Wait
 from tests.fakes.steered import Told
 from tests.fakes.waiting import HANG_S
 
@@ -136,7 +139,9 @@ def test_more_lines_than_anybody_types_are_refused_and_a_stop_is_not(desk, told,
         client.order(line=f"line {number}")
     client.order(do="stop")
     until(lambda: told.stops == 1)
-    assert sum("Too many lines" in one for one in told.said) == 20
+    refused = lambda: sum("Too many lines" in one for one in told.said)  # noqa: E731
+    until(lambda: refused() >= 20)  # what is said goes by a thread of its own
+    assert refused() == 20
     told.go_on.set()
 
 
@@ -253,3 +258,45 @@ def test_a_stop_has_the_last_word_over_a_button_that_lets_the_robot_go_on(
     until(lambda: "pause" in told.did)
     assert not any(button in one for one in told.did if not one.endswith("(0)"))
     assert any(f"{button} was pressed before" in one for one in told.said)
+
+
+def test_what_is_said_into_a_page_is_a_sentence_and_read_back(desk, told, folder):
+    client = Client(folder)
+    client.order(heard="go to the table", sure=True)
+    until(lambda: "go to the table (0)" in told.did)
+    assert told.read_back == [heard_risk]
+    client.order(heard="go to the shelf", sure=False, doubtful=["shelf"])
+    until(lambda: "go to the shelf (0)" in told.did)
+    risk = told.read_back[1]
+    assert "“shelf”" in risk((GoTo(place="shelf"),))
+    assert not risk((Wait(duration_s=1.0),))
+
+
+def test_a_cry_into_a_page_stops_and_no_emergency_stop_is_undone_by_one(desk, told, folder):
+    client = Client(folder)
+    client.order(heard="stop")
+    until(lambda: told.did == ["stop"])
+    client.order(heard="estop reset")
+    client.order(heard="wait")
+    until(lambda: "halt" in told.did)
+    assert "estop reset" not in told.did
+    assert AT_THE_ROBOT in told.said
+
+
+def test_what_was_not_heard_well_answers_no_question(desk, told, folder):
+    told.asked = ("Which cup?", ("the red one", "the blue one"))
+    client = Client(folder)
+    client.order(heard="the blue one", sure=False)
+    until(lambda: any("say it again" in text for text in told.said))
+    assert told.did == []
+    client.order(heard="the blue one")
+    until(lambda: told.did == ["the blue one (0)"])
+
+
+def test_what_was_said_before_a_stop_comes_to_nothing(desk, told, folder):
+    begun_s = now_s()
+    client = Client(folder)
+    client.order(do="stop")
+    until(lambda: told.stops == 1)
+    client.order(heard="go to the table", begun_s=begun_s)
+    until(lambda: "go to the table (0)" in told.did)  # said when there had been no stop
