@@ -12,6 +12,7 @@ from robot.reality.truth import Check, Verdict
 from robot.se3 import SE3
 from sim import faults, judge, render
 from sim.plant import Plant
+from sim.trail import Trail
 from sim.witness import Witness
 
 if TYPE_CHECKING:
@@ -22,14 +23,22 @@ class JudgedPlant(Plant):
     """The plant with all that `robot.reality.contract.Plant` asks of it."""
 
     _witness: Witness | None = None
+    _trail: Trail | None = None
 
     def watch(self) -> None:
         """Note from now on what it does: a fast run takes 7 % longer."""
         self._witness = Witness(self)
 
+    def leave_trail(self, path: Path) -> Trail:
+        """Write from now on how everything truly moves, for people who look on, until closed."""
+        self._trail = Trail(self, path)
+        return self._trail
+
     def step(self, count: int = 1) -> None:
         """Advance, as a plant does."""
         super().step(count)
+        if self._trail is not None:
+            self._trail.look()
         if self._witness is not None:
             self._witness.look()
 

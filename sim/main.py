@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import sys
 from contextlib import ExitStack
+from pathlib import Path
 
 from robot.bus import run
 from robot.bus.lifeline import Stop, Turn, ask_for_real_time, ask_for_turn, tie_to_parent
@@ -12,6 +13,7 @@ from robot.bus.zenoh_bus import ZenohBus
 from robot.clock import WallClock
 from robot.drivers.simulation.shared_plant import PlantServer
 from robot.model import description
+from robot.reality.trail import FILE as TRAIL_FILE
 from sim.live import LivePlant
 from sim.plant_buses import PlantBuses, maps
 from sim.scene_memory import SceneMemory
@@ -31,6 +33,7 @@ def main(run_file: str, parent_pid: str) -> None:
     robot = description.load(config.robot).driven_by(config.motors)
     plant = world.plant(robot, seed=config.seed)
     with ExitStack() as stack:
+        stack.enter_context(plant.leave_trail(Path(config.folder) / TRAIL_FILE))
         bus = stack.enter_context(ZenohBus("plant", config.sockets))
         body = stack.enter_context(PlantServer(robot, config.memory))
         scene = SceneMemory(plant.model, config.memory, create=True) if config.pictures else None

@@ -12,6 +12,7 @@ from executive.journal import journal, motion, sensed
 from robot import shots
 from robot.errors import ConfigError, Problem
 from robot.files.ordinary_files import make_below, write_ordinary
+from robot.reality import trail
 
 
 def refuse_taken(path: Path) -> None:
@@ -59,7 +60,7 @@ def records_of(folder: Path) -> list[Path]:
     """What a run's folder holds that cannot be made again."""
     names = (
         journal.FILE, journal.WALL_FILE, motion.FILE, sensed.FILE, shots.COLOUR_FILE,
-        shots.DEPTH_FILE, "run.json", "summary.json",
+        shots.DEPTH_FILE, trail.FILE, "run.json", "summary.json",
     )  # fmt: skip
     return [folder / name for name in names]
 

@@ -19,6 +19,7 @@ from executive.runs import lidar_maps
 from robot.bringup.mailbox import Handle
 from robot.errors import ConfigError, Problem
 from robot.planning.worker import Planner
+from robot.reality.trail import FILE as TRAIL_FILE
 
 if TYPE_CHECKING:
     from robot.bringup.fast import FastRuntime
@@ -63,7 +64,10 @@ def fast(setup: Setup) -> Generator[tuple[FastRuntime, Planner]]:
 
     where = setup.where
     map_file = lidar_maps.needed(where)
-    with FastRuntime(where.world, where.robot_name, seed=setup.seed, lidar_map=map_file) as runtime:
+    trail = None if setup.folder is None else setup.folder / TRAIL_FILE
+    with FastRuntime(
+        where.world, where.robot_name, seed=setup.seed, lidar_map=map_file, trail=trail
+    ) as runtime:
         yield runtime, InlinePlanner(where.description)
 
 

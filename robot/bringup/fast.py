@@ -34,6 +34,7 @@ class FastRuntime(Lockstep):
         bus: LocalBus | None = None,
         lidar_map: Path | None = None,
         on_sample: Callable[[BodySample, Plant], None] | None = None,
+        trail: Path | None = None,
     ) -> None:
         """Build every part; nothing moves before `advance`.
 
@@ -44,6 +45,7 @@ class FastRuntime(Lockstep):
             bus: to carry the messages; a new one by default.
             lidar_map: the map that it finds itself in, where its lidar tells it where it is.
             on_sample: hears what the body feels in every period of its controller, for recordings.
+            trail: file for how everything truly moves, for people who look on.
 
         Raises:
             ConfigError: if the robot or the map cannot be used.
@@ -51,6 +53,7 @@ class FastRuntime(Lockstep):
         bus = bus or LocalBus()
         body = description.load(robot)
         plant = world.plant(body, seed=seed, physics_ms=PHYSICS_MS)
+        self._trail = None if trail is None else plant.leave_trail(trail)
         clock = SimulatedClock()
         wiring = Wiring(robot=body, clock=clock, bus=bus, plant=plant)
         states = bus.subscribe(topics.BODY_STATE)
@@ -78,6 +81,8 @@ class FastRuntime(Lockstep):
     def close(self) -> None:
         """Damp the motors, and close the camera and the bus."""
         super().close()
+        if self._trail is not None:
+            self._trail.close()
         if self._camera is not None:
             self._camera.close()
 

@@ -317,6 +317,10 @@ class Plant(SimulatedPlant, Protocol):
         """Note from now on, for `judge`, where the robot goes, what it touches and says."""
         ...
 
+    def leave_trail(self, path: Path) -> Closing:
+        """Write how everything truly moves into a file (`robot.reality.trail`) until closed."""
+        ...
+
     def judge(self, checks: Iterable[Check]) -> Verdict:
         """How it truly is, and was since `watch`.
 

@@ -32,6 +32,8 @@ from robot import shots
 from robot.bringup import private_folder
 from robot.model import description
 from robot.model.body import BodyModel
+from robot.reality import trail
+from robot.reality.trail import Truth
 from robot.se3 import SE3
 from robot.shots import Shot
 from tests.fakes.browser import BROWSER, Browser
@@ -521,6 +523,34 @@ def test_a_fault_is_injected_by_a_press_and_by_the_form(browser, shell):
             lambda: injected[1:] == [{"fault": "heat", "motor": "left_knee", "temperature_c": 95}]
         )
         page.wait("document.querySelector('#talk').textContent.includes('Injected: heat')")
+        assert page.mistakes() == []
+
+
+def test_the_truth_is_a_ghost_where_belief_errs_and_can_be_switched_off(browser, tmp_path):
+    folder = sights(tmp_path / "run")
+    base = flat(SE3((0.0, 0.0, 0.6)))
+    there, away = flat(SE3((0.75, 0.0, 0.62))), flat(SE3((0.75, 0.1, 0.62)))
+    truths = [
+        Truth(t_s=0.05, base=base, objects={"red_cup": there, "bottle": away}),
+        Truth(t_s=2.0, base=flat(SE3((0.1, 0.0, 0.6))), objects={"red_cup": away}),
+    ]
+    (folder / trail.FILE).write_bytes(b"".join(msgspec.json.encode(one) + b"\n" for one in truths))
+    ghosts = "(page.real ? [...page.real.bodies].map((k) => page.scene.bodies[k].id) : [])"
+    with served(folder) as console:
+        page = browser.page(console.url)
+        page.wait("page.drawn > 0 && truth.times.length === 2")
+        page.eval("goTo(1.0)")
+        page.wait(f"page.real && {ghosts}.length === 1")  # a thing that nobody has seen yet
+        assert page.eval(ghosts) == ["bottle"]
+        assert "truth of the simulation" in page.text("#real")
+        page.eval("goTo(2.5)")
+        page.wait(f"{ghosts}.includes('red_cup')")
+        assert (
+            page.eval(f"{ghosts}.length") > 10
+        )  # and all of the robot, which is not where it thinks
+        page.click("#layers summary")
+        page.click("[data-layer=truth]")
+        page.wait("page.real === null && document.querySelector('#real').hidden")
         assert page.mistakes() == []
 
 

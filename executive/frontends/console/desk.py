@@ -20,9 +20,9 @@ import msgspec
 
 from executive.frontends.emergency import AT_THE_ROBOT, undoes
 from executive.frontends.line_server import LineServer, is_own
-from executive.frontends.listening.reading_back import Risk, doubtful_risk, heard_risk
 from executive.frontends.output import as_mistake
 from executive.frontends.printer import Printer
+from executive.frontends.reading_back import Risk, doubtful_risk, heard_risk
 from robot.closing import Closing
 from robot.errors import RobotError
 from robot.printable import printable_line

@@ -15,6 +15,7 @@ from executive.journal import journal, motion, sensed
 from executive.journal.reader import Reader
 from executive.journal.run import Run
 from robot import shots
+from robot.reality import trail
 
 
 class Following:
@@ -24,6 +25,7 @@ class Following:
         folder: of the run.
         moments: how everything moved, each line the JSON that the page is given.
         sensed: what was sensed and planned, in the same way.
+        truth: how everything truly moved, where that was in simulation, in the same way.
         pictures: what the camera saw, by kind.
     """
 
@@ -40,6 +42,8 @@ class Following:
         )
         self._motion = Tail(folder / motion.FILE, longest=motion.MAX_LINE, most=motion.MOST_BYTES)
         self._senses = Tail(folder / sensed.FILE, longest=sensed.MAX_LINE, most=sensed.MOST_BYTES)
+        self._truths = Tail(folder / trail.FILE, longest=trail.MAX_LINE, most=trail.MOST_BYTES)
+        self.truth = Kept(self._truths, most=trail.MOST_LINES, time_of=_true_s)
         self.moments = Kept(self._motion, most=motion.MOST_MOMENTS, time_of=_moved_s)
         self.sensed = Kept(self._senses, most=sensed.MOST_LINES, time_of=_sensed_s)
 
@@ -71,12 +75,20 @@ class Following:
         events = self._events.lines()
         for line in events:
             self._reader.line(line + b"\n")
-        grown = [one.read() for one in (self.moments, self.sensed, *self.pictures.values())]
+        grown = [
+            one.read() for one in (self.moments, self.sensed, self.truth, *self.pictures.values())
+        ]
         return bool(events) or any(grown)
 
     def close(self) -> None:
         """Close the files."""
-        for one in (self._events, self._motion, self._senses, *self.pictures.values()):
+        for one in (
+            self._events,
+            self._motion,
+            self._senses,
+            self._truths,
+            *self.pictures.values(),
+        ):
             one.close()
 
 
@@ -87,4 +99,9 @@ def _moved_s(line: bytes) -> float | None:
 
 def _sensed_s(line: bytes) -> float | None:
     one = sensed.decode(line)
+    return None if one is None else one.t_s
+
+
+def _true_s(line: bytes) -> float | None:
+    one = trail.decode(line)
     return None if one is None else one.t_s

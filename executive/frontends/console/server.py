@@ -290,7 +290,7 @@ class Viewer:
         self._show: Show | None = None
         self._greeted = False
         self._scene = False
-        self._moments = 0
+        self._moments = self._truth = 0
         self._parts: dict[str, bytes] = {}
         self._live: bool | None = None
         self._steers: bool | None = None
@@ -315,6 +315,7 @@ class Viewer:
             if show is not self._show or not self._greeted:
                 self._greeted = True
                 self._show, self._scene, self._moments, self._sensed = show, False, 0, 0
+                self._truth = 0
                 self._shown = {}
                 self._parts, self._live, self._steers, self._asks = {}, None, None, b""
                 self._words = show.steering.first if show else 0
@@ -339,6 +340,7 @@ class Viewer:
                 more = self._scene and (
                     self._moments < len(show.following.moments)
                     or self._sensed < len(show.following.sensed)
+                    or self._truth < len(show.following.truth)
                 )
             if not more:
                 await asyncio.sleep(max(0.0, begun_s + PERIOD_S - loop.time()))
@@ -360,6 +362,10 @@ class Viewer:
         if self._scene and self._sensed < len(sensed):
             batch, self._sensed = sensed.batch(self._sensed, most=BATCH_SENSED)
             news.append(b'"sensed":[' + b",".join(batch) + b"]")
+        truth = show.following.truth
+        if self._scene and self._truth < len(truth):
+            batch, self._truth = truth.batch(self._truth, most=BATCH)
+            news.append(b'"truth":[' + b",".join(batch) + b"]")
         for key, part in show.parts.items():
             if self._parts.get(key) != part:
                 self._parts[key] = part

@@ -10,10 +10,10 @@ from executive.frontends.emergency import emergency
 from executive.frontends.launching import from_plain_options
 from executive.frontends.listening.hearing import audio_errors, ear, sound
 from executive.frontends.listening.options import Listen
-from executive.frontends.listening.reading_back import Risk, doubtful_risk, heard_risk
 from executive.frontends.output import as_mistake, say
 from executive.frontends.prompt import cli
 from executive.frontends.prompt.shell import Shell
+from executive.frontends.reading_back import Risk, doubtful_risk, heard_risk
 from executive.frontends.speaking import Speech, able
 from executive.journal.journal import Event
 from intents.risks import risk

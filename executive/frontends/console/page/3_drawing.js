@@ -13,7 +13,7 @@ void main() {
 const FRAGMENT = `#version 300 es
 precision highp float; precision highp sampler2DShadow;
 in vec3 at, up, paint; in vec4 shade; out vec4 pixel;
-uniform sampler2DShadow shadows; uniform vec3 sun, eye, haze, second; uniform vec4 tile; uniform float ground, glow, veil;
+uniform sampler2DShadow shadows; uniform vec3 sun, eye, haze, second, tint; uniform vec4 tile; uniform float ground, glow, veil;
 float lit(float facing) {
   vec3 where = shade.xyz / shade.w * 0.5 + 0.5;
   if (any(lessThan(where.xy, vec2(0.0))) || any(greaterThan(where.xy, vec2(1.0))) || where.z > 1.0) return 1.0;
@@ -38,7 +38,7 @@ void main() {
     + vec3(0.10, 0.11, 0.13) * max(dot(n, normalize(vec3(-0.6, 0.5, 0.6))), 0.0);
   vec3 half_ = normalize(sun + normalize(eye - at));
   colour = colour * light + 0.05 * pow(max(dot(n, half_), 0.0), 24.0) * facing;
-  colour = mix(colour, vec3(0.1, 0.65, 1.0), glow);
+  colour = mix(colour, tint, glow);
   pixel = vec4(mix(colour, haze, ground * smoothstep(7.0, 26.0, far)), 1.0 - veil);
 }`;
 
@@ -150,9 +150,9 @@ class Drawing {
     return true;
   }
 
-  // Draw bodies at `matrices` (null: not there) as seen by `camera`; returns the view's matrix. Of a
-  // `ghost` ({all: matrices, bodies: a set of places}) these are drawn once more, to be looked through.
-  draw(matrices, camera, haze, glows, ghost) {
+  // Draw bodies at `matrices` (null: not there) as seen by `camera`; returns the view's matrix. Of each
+  // of `ghosts` ({all: matrices, bodies: a set of places, tint}) these are drawn once more, to be looked through.
+  draw(matrices, camera, haze, glows, ghosts) {
     const gl = this.gl, { eye, at } = camera;
     this.resize();
     const view = times(perspective(camera.fovy, this.canvas.width / Math.max(1, this.canvas.height), 0.05, 120), lookAt(eye, at, [0, 0, 1]));
@@ -185,11 +185,12 @@ class Drawing {
     gl.uniform3fv(names.eye, eye);
     gl.uniform3fv(names.haze, haze);
     const still = matrixOf(UNIT);
-    const paint = (thing, matrix, { ground = 0, glow = 0, veil = 0 } = {}) => {
+    const paint = (thing, matrix, { ground = 0, glow = 0, veil = 0, tint = [0.1, 0.65, 1.0] } = {}) => {
       gl.uniformMatrix4fv(names.body, false, matrix);
       gl.uniform1f(names.ground, ground);
       gl.uniform1f(names.glow, glow);
       gl.uniform1f(names.veil, veil);
+      gl.uniform3fv(names.tint, tint);
       gl.uniform3fv(names.second, thing.second ? thing.second.slice(0, 3) : [0, 0, 0]);
       gl.uniform4fv(names.tile, thing.second ? [...thing.origin, ...thing.tile] : [0, 0, 0, 0]);
       gl.bindVertexArray(thing.array);
@@ -197,10 +198,10 @@ class Drawing {
     };
     if (this.ground) paint(this.ground, still, { ground: 1 });
     for (const thing of this.things) if (matrices[thing.place]) paint(thing, matrices[thing.place], { glow: glows[thing.place] || 0 });
-    if (ghost) {
+    for (const ghost of ghosts) {
       gl.enable(gl.BLEND);
       gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-      for (const thing of this.things) if (ghost.bodies.has(thing.place)) paint(thing, ghost.all[thing.place], { glow: 0.5, veil: 0.6 });
+      for (const thing of this.things) if (ghost.bodies.has(thing.place)) paint(thing, ghost.all[thing.place], { glow: ghost.tint ? 0.7 : 0.5, veil: 0.6, tint: ghost.tint });
       gl.disable(gl.BLEND);
     }
     gl.disable(gl.CULL_FACE);

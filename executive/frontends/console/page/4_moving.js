@@ -54,6 +54,21 @@ class Motion {
   }
 }
 
+const ERRS_M = 0.02, ERRS_TURN = 0.03; // what is believed this near to the truth, in metres and parts of a matrix, is true
+
+// What truly is elsewhere than the robot believes, of a simulation: its matrices, and which bodies they are of; null if nothing is.
+function truthAt(scene, truth, motion, t, resting, matrices) {
+  if (!truth.times.length) return null;
+  const base = truth.at(t), stands = motion.at(t), bodies = new Set();
+  const real = { at: () => ({ base: base.base, q: stands ? stands.q : scene.posture }), poseOf: (tracks, id, when) => truth.poseOf(tracks, id, when), objects: truth.objects, people: truth.people };
+  const all = matricesAt(scene, real, t, resting);
+  const turns = (k) => scene.bodies[k].role !== "object"; // a cup looks the same from all sides
+  const errs = (k) => all[k] && (!matrices[k] || all[k].some((one, i) => Math.abs(one - matrices[k][i]) > (i >= 12 ? ERRS_M : turns(k) ? ERRS_TURN : Infinity)));
+  const off = errs(scene.base);
+  scene.bodies.forEach((body, k) => { if (body.role === "robot" ? off : ["object", "person"].includes(body.role) && errs(k)) bodies.add(k); });
+  return bodies.size ? { all, bodies, tint: [1, 0.8, 0.1] } : null;
+}
+
 // The place of the last of some growing numbers that is not beyond a value; -1 if all are.
 function before(numbers, value) {
   let [low, high] = [0, numbers.length];

@@ -1,6 +1,6 @@
 // What is planned and sensed, in 3-D: each kind can be switched off.
 
-const SHOWS = { plans: true, lidar: true, zones: true, cloud: false };
+const SHOWS = { plans: true, lidar: true, zones: true, truth: true, cloud: false };
 const BLUE = [0.0, 0.45, 0.85], GREEN = [0.0, 0.62, 0.35], ORANGE = [0.95, 0.5, 0.05], VIOLET = [0.55, 0.25, 0.85], RED = [0.85, 0.1, 0.15];
 const ARM_REST_S = 0.4; // so long a motion is shown after its end
 

@@ -1,6 +1,6 @@
 // Puts it together: what comes from the server, what a person does, and a picture when one of them is new.
 
-const motion = new Motion(), sensing = new Sensing();
+const motion = new Motion(), truth = new Motion(), sensing = new Sensing();
 const parts = { head: {}, tree: [], said: [], health: [], jobs: [], troubles: [], left_out: "" };
 const page = {
   scene: null, resting: [], live: null, steers: false, linked: false, now: true, t: 0, playing: false, dirty: true,
@@ -20,6 +20,7 @@ function taken(news) {
   if (news.scene) haveScene(news.scene);
   if (news.latest) { motion.latest = { base: news.latest.base, q: news.latest.q }; page.dirty = true; }
   for (const moment of news.moments || []) motion.add(moment);
+  for (const moment of news.truth || []) truth.add({ q: [], ...moment });
   for (const line of news.sensed || []) sensing.add(line);
   if (news.sensed) { page.dirty = true; panels.soon("sensed"); }
   if (news.shot) camera_.have(news.shot);
@@ -34,6 +35,7 @@ function taken(news) {
 
 function begin(news) {
   motion.clear();
+  truth.clear();
   sensing.clear();
   camera_.clear();
   if (plans.marks) plans.marks.clear();
@@ -316,8 +318,10 @@ function picture(ms) {
   const sky = getComputedStyle(document.documentElement).getPropertyValue("--sky").trim();
   const haze = [1, 3, 5].map((k) => parseInt(sky.slice(k, k + 2), 16) / 255);
   drawTrail(t);
-  const ghost = plans.update(t, matrices);
-  const view = drawing.draw(matrices, camera, haze, glows, ghost);
+  const planned = plans.update(t, matrices), real = SHOWS.truth ? truthAt(page.scene, truth, motion, t, page.resting, matrices) : null;
+  page.real = real;
+  $("real").hidden = !real;
+  const view = drawing.draw(matrices, camera, haze, glows, [real, planned].filter(Boolean));
   plans.marks.draw(view, camera.fovy);
   drawLabels(view, matrices, t);
   pace(ms);

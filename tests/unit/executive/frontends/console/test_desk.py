@@ -13,7 +13,7 @@ import pytest
 from executive.frontends.console import desk as desks
 from executive.frontends.console.desk import FILE, Desk
 from executive.frontends.emergency import AT_THE_ROBOT
-from executive.frontends.listening.reading_back import heard_risk
+from executive.frontends.reading_back import heard_risk
 from executive.frontends.since_boot import now_s
 from intents.goals import GoTo, Wait
 from tests.fakes.steered import Told
