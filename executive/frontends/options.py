@@ -239,7 +239,7 @@ class Prompt(Place, Shuffled, Viewed, Kept, Agreeing, Voiced):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Walk(Place, Seeded):
+class Walk(Place, Seeded, Viewed, Kept):
     """The options of `humanoid walk`: to look at the body alone, where nothing is in its way."""
 
     speed: Annotated[float, typer.Option("--speed", help="Forward, in m/s.")] = 0.4

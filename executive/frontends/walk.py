@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
+
 from executive.engine.loop import Interrupts
 from executive.frontends import streams
 from executive.frontends.composition_root import REALITY
+from executive.frontends.console.attending import attended
+from executive.frontends.console.beside import shown
 from executive.frontends.driving import chosen
+from executive.frontends.dump.record import recorded
 from executive.frontends.exit import refuse
+from executive.frontends.launching import folder_for
+from executive.frontends.only_stopping import OnlyStopping
 from executive.frontends.options import Walk
 from executive.frontends.output import Screen, say, write_json
 from executive.journal import failures
@@ -15,9 +22,13 @@ from executive.runs import lidar_maps, runtimes, velocity_walk
 from executive.runs.runtimes import Setup
 from executive.runs.summary import clamped_words, late_periods
 from executive.runs.velocity_walk import VelocityCommand, Walked
+from executive.runs.walk_record import WalkRecord
 from robot.clock import WallClock
 from robot.exit_status import exit_status
 from robot.messages import BodyState
+
+TEXT = "walk"
+"""What the run is about, and what its folder is called by, where one is kept."""
 
 
 def walk(options: Walk) -> int:
@@ -47,14 +58,34 @@ def walk(options: Walk) -> int:
     begun_s = wall.now_s()
     kind: runtimes.Kind = "fast" if options.fast else "live"
     driver = chosen(options.driver, where.description, fast=options.fast, err=options.as_json)
-    setup = Setup(where=where, kind=kind, seed=options.seed, pictures=options.camera, driver=driver)
-    with interrupts.listen(), runtimes.opened(setup) as (runtime, _):
+    kept = options.view or options.record or options.run_dir is not None
+    folder = folder_for(options.run_dir, TEXT) if kept else None
+    setup = Setup(
+        where=where, kind=kind, seed=options.seed, pictures=options.camera, driver=driver,
+        folder=folder,
+    )  # fmt: skip
+    with (
+        shown(folder, wanted=options.view, err=options.as_json),
+        recorded(folder, wanted=options.record, err=options.as_json),
+        interrupts.listen(),
+        runtimes.opened(setup) as robot,
+        ExitStack() as stack,
+    ):
+        runtime, record = robot.runtime, None
+        if folder is not None:
+            record = stack.enter_context(WalkRecord(setup, robot, folder, text=TEXT))
+            page = OnlyStopping(interrupts, lambda text: say(text, err=True))
+            stack.enter_context(attended(page, folder, None))
         with Screen(quiet=options.as_json).status("walking") as status:
 
             def show(body: BodyState) -> None:
                 status.update(f"walking: {body.stamp_s:.0f} of {command.duration_s:.0f} s")
+                if record is not None:
+                    record.look()
 
             walked = velocity_walk.walk(runtime, command, interrupts=interrupts, on_tick=show)
+        if record is not None:
+            record.end(walked)
         past_s = runtime.clock.now_s()
         late = late_periods(runtime)
     if options.as_json:

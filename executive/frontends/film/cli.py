@@ -28,6 +28,10 @@ def film(
             "--output", "-o", help="A .gif, .webm or .mp4 (default: in the run's folder)."
         ),
     ] = None,
+    gif: Annotated[
+        bool,
+        typer.Option("--gif", help="As a .gif, for READMEs."),
+    ] = False,
     speed: Annotated[
         float, typer.Option("--speed", min=0.1, max=100.0, help="So many times as fast as it was.")
     ] = 2.0,
@@ -61,11 +65,13 @@ def film(
 
       humanoid film red-cup -o cup.webm
 
+      humanoid film red-cup --gif --speed 6
+
       humanoid film red-cup -o cup.gif --speed 6 --width 480 --from 10 --to 40
     """
     from executive.frontends.film import command
 
     asked = command.Asked(
-        run=run, output=output, speed=speed, begin_s=begin, end_s=end, width=width
+        run=run, output=output, gif=gif, speed=speed, begin_s=begin, end_s=end, width=width
     )
     raise typer.Exit(command.film(asked))

@@ -42,6 +42,7 @@ class Asked(msgspec.Struct, frozen=True, kw_only=True):
 
     run: str | None = None
     output: Path | None = None
+    gif: bool = False
     speed: float = 2.0
     begin_s: float | None = None
     end_s: float | None = None
@@ -55,7 +56,10 @@ def film(asked: Asked) -> int:
         ConfigError: there is no such run, its movements were not kept, or nothing can be written.
     """
     folder = past_runs.find(asked.run)
-    path = asked.output or folder / f"film{writing.best()}"
+    path = asked.output or folder / f"film{'.gif' if asked.gif else writing.best()}"
+    if asked.gif and path.suffix.casefold() != ".gif":
+        text = f"--gif makes a .gif, and {path.name} is none"
+        raise ConfigError([Problem(text, suggestion="leave out --gif, or call it so")])
     kind = writing.kind_of(path)
     refuse_inputs([path], records_of(folder))
     run = reader.read(folder)

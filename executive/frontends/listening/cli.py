@@ -27,7 +27,8 @@ def listen(options: Listen) -> None:
         raise typer.BadParameter("--json goes with --parse-only")
     if options.parse_only:
         for name, given in (("--yes", options.yes), ("--fast", options.fast),
-                            ("--run-dir", options.run_dir is not None)):  # fmt: skip
+                            ("--run-dir", options.run_dir is not None),
+                            ("--view", options.view), ("--record", options.record)):  # fmt: skip
             if given:
                 raise typer.BadParameter(f"{name} needs a robot, and --parse-only moves none")
     if options.recogniser is RecogniserName.WHISPER and options.whisper is None:

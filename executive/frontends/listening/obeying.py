@@ -53,7 +53,7 @@ def _converse(options: Listen, handle: Handle | None, speech: Speech) -> int:
         run_dir=options.run_dir, model=options.model, reality=options.reality,
         eyes=options.eyes,
         localisation=options.localisation,
-        driver=options.driver,
+        driver=options.driver, camera=options.camera, view=options.view, record=options.record,
     )  # fmt: skip
     with cli.conversation(prompt, "listen", handle=handle, speech=speech) as shell:
         listener = ear(options, shell.robot.where.knowledge.vocabulary())

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from executive.frontends.options import Kept, Place, Reading, Seeded
+from executive.frontends.options import Kept, Place, Reading, Seeded, Viewed
 
 
 class RecogniserName(StrEnum):
@@ -29,7 +29,7 @@ class VoiceName(StrEnum):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Listen(Place, Seeded, Kept, Reading):
+class Listen(Place, Seeded, Viewed, Kept, Reading):
     """The options of `humanoid listen`."""
 
     file: Annotated[

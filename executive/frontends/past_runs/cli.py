@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from executive.frontends import completing
-from executive.frontends.options import Model
+from executive.frontends.options import Model, Record, View, Viewed
 from executive.frontends.service import place
 from executive.frontends.service.options import Name
 
@@ -126,7 +126,13 @@ def replay(run: Run = None, *, as_json: AsJson = False) -> None:
 
 
 def resume(
-    run: Run = None, *, name: Name = None, model: Model = None, as_json: AsJson = False
+    run: Run = None,
+    *,
+    name: Name = None,
+    model: Model = None,
+    view: View = False,
+    record: Record = False,
+    as_json: AsJson = False,
 ) -> None:
     """Go on: a robot that is up and paused; or a run that was cut off by kill -9, a power cut.
 
@@ -151,4 +157,5 @@ def resume(
         raise typer.Exit(commands.button(name, "resume"))
     from executive.frontends.past_runs import resume as command
 
-    raise typer.Exit(command.resume(run, model=model, as_json=as_json))
+    page = Viewed(view=view, record=record)
+    raise typer.Exit(command.resume(run, model=model, as_json=as_json, page=page))

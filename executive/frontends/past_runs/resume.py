@@ -7,13 +7,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from executive.frontends import carrying_out
-from executive.frontends.carrying_out import Prepared
+from executive.frontends.carrying_out import UNSEEN, Prepared
 from executive.frontends.composition_root import REALITY
+from executive.frontends.console.beside import shown as viewed
 from executive.frontends.driving import chosen
+from executive.frontends.dump.record import recorded as saved
 from executive.frontends.launching import FrontEnd, from_plain_options, launch, now_stamp, under_way
-from executive.frontends.options import Shown
+from executive.frontends.options import Shown, Viewed
 from executive.frontends.output import say
 from executive.frontends.past_runs import printing
+from executive.frontends.prompt.attached import attached
 from executive.journal import past_runs
 from executive.meaning.request import Setting
 from executive.runs import run_folder
@@ -28,13 +31,19 @@ from robot.exit_status import ExitStatus
 
 
 @dataclass(frozen=True, kw_only=True)
-class GoOn(Shown):
+class GoOn(Shown, Viewed):
     """A live run that is gone on with: its folder."""
 
     left_by: Path
 
 
-def resume(run: str | None, *, model: Path | None = None, as_json: bool) -> int:
+def resume(
+    run: str | None,
+    *,
+    model: Path | None = None,
+    as_json: bool,
+    page: Viewed = UNSEEN,
+) -> int:
     """Go on with a run that was cut off (default: the newest); returns the exit status.
 
     Raises:
@@ -44,14 +53,14 @@ def resume(run: str | None, *, model: Path | None = None, as_json: bool) -> int:
     if recorded.header.attended:
         from executive.frontends.prompt.cli import go_on_with
 
-        return go_on_with(recorded, model)
+        return go_on_with(recorded, model, page)
     if recorded.header.runtime == "fast":
-        return _go_on_fast(recorded, as_json=as_json)
-    wanted = GoOn(left_by=recorded.folder, as_json=as_json)
+        return _go_on_fast(recorded, page, as_json=as_json)
+    wanted = GoOn(left_by=recorded.folder, as_json=as_json, view=page.view, record=page.record)
     return launch(FrontEnd.RESUME, wanted, as_json=as_json)
 
 
-def _go_on_fast(recorded: Recording, *, as_json: bool) -> int:
+def _go_on_fast(recorded: Recording, page: Viewed, *, as_json: bool) -> int:
     where, changed = recording.setting(recorded, REALITY)
     _note(changed)
     words = f"catching up with {recorded.folder.name}"
@@ -62,7 +71,11 @@ def _go_on_fast(recorded: Recording, *, as_json: bool) -> int:
         time_of_day=time.time,
     )
     try:
-        summary = catching_up.go_on(recorded, where, screen)
+        with (
+            viewed(recorded.folder, wanted=page.view, err=as_json),
+            saved(recorded.folder, wanted=page.record, err=as_json),
+        ):
+            summary = catching_up.go_on(recorded, where, screen)
     except CannotGoOn as end:
         say("It cannot be gone on with: it does not repeat.", err=True)
         say("\n".join(printing.differs(end.difference)), err=True)
@@ -100,7 +113,7 @@ def go_on_live(wanted: GoOn, handle: Handle | None = None) -> int:
         )
         return Prepared(assignment=assignment, setup=setup, left=left)
 
-    return carrying_out.carry_out(prepare, wanted, handle)
+    return carrying_out.carry_out(prepare, wanted, handle, page=wanted, attend=attached)
 
 
 def _driver(recorded: Recording, where: Setting, *, err: bool) -> str:

@@ -25,7 +25,7 @@ from executive.frontends.launching import (
     launch,
     under_way,
 )
-from executive.frontends.options import Prompt
+from executive.frontends.options import Prompt, Viewed
 from executive.frontends.output import Screen, say
 from executive.frontends.progress import sentence
 from executive.frontends.prompt.commands import table
@@ -56,7 +56,7 @@ class Begun(Prompt):
     left_by: Path | None = None
 
 
-def go_on_with(recorded: Recording, model: Path | None) -> int:
+def go_on_with(recorded: Recording, model: Path | None, page: Viewed = carrying_out.UNSEEN) -> int:
     """Prompt, and go on with what was open at a prompt that was cut off; the exit status."""
     header = recorded.header
     options = Begun(
@@ -71,6 +71,8 @@ def go_on_with(recorded: Recording, model: Path | None) -> int:
         localisation=header.localisation,
         model=model,
         left_by=recorded.folder,
+        view=page.view,
+        record=page.record,
     )
     return prompt(options) if options.fast else launch(FrontEnd.PROMPT, options)
 

@@ -33,7 +33,9 @@ def setup_of_a_resumed(monkeypatch, where, found) -> Setup:
     monkeypatch.setattr(resume.recording, "setting", lambda *_: (where, []))
     monkeypatch.setattr(resume, "left_in", lambda _: left)
     monkeypatch.setattr(
-        carrying_out, "carry_out", lambda prepare, *_: setattr(found, "setup", prepare().setup) or 0
+        carrying_out,
+        "carry_out",
+        lambda prepare, *_, **__: setattr(found, "setup", prepare().setup) or 0,
     )
     wanted = resume.GoOn(left_by=found.folder, as_json=True)
     assert resume.go_on_live(wanted) == 0
