@@ -554,6 +554,19 @@ def test_the_truth_is_a_ghost_where_belief_errs_and_can_be_switched_off(browser,
         assert page.mistakes() == []
 
 
+def test_a_stop_that_is_pressed_without_a_connection_is_sent_once_there_is_one(browser, shell):
+    with served(shell.folder) as console:
+        page = browser.page(console.url)
+        page.wait("page.drawn > 0 && page.steers")
+        page.eval("link.socket.close(); stop()")
+        until(lambda: shell.stops == 1)
+        page.wait("page.linked && page.unsent === 0")
+        page.eval("page.unsent = performance.now() - UNSENT_MS - 1; link.socket.close()")
+        page.wait("!page.linked")
+        page.wait("page.linked")  # what was pressed long ago is no wish of now
+        assert shell.stops == 1
+
+
 SPOKEN = Path(__file__).parents[1] / "unit" / "intents" / "speech" / "sounds" / "command.wav"
 
 

@@ -346,13 +346,14 @@ function order(text) {
   if (!link.send({ line: text })) panels.answer({ out: "Not sent: there is no connection." });
 }
 
-const ANSWER_MS = 3000;
+const ANSWER_MS = 3000, UNSENT_MS = 10000;
 function stop() {
   clearTimeout(page.unanswered);
   const sent = link.send({ do: "stop" });
+  page.unsent = sent ? 0 : performance.now();
   $("stop").classList.add("sent");
   setTimeout(() => $("stop").classList.remove("sent"), 600);
-  if (!sent) panels.answer({ out: "STOP was not sent: there is no connection. Use Ctrl-C in the robot's terminal." });
+  if (!sent) panels.answer({ out: "STOP was not sent: there is no connection. It is sent once there is one, within 10 s. Use Ctrl-C in the robot's terminal." });
   else page.unanswered = setTimeout(() => panels.answer({ out: "STOP was not answered yet. Use Ctrl-C in the robot's terminal." }), ANSWER_MS);
 }
 
@@ -449,5 +450,9 @@ $("view").addEventListener("wheel", (event) => {
 document.addEventListener("visibilitychange", () => { page.dirty = true; });
 
 if (matchMedia("(max-width: 860px)").matches) { page.names = false; $("names").setAttribute("aria-pressed", "false"); }
-link = new Link(location.hash.slice(1), { taken, changed: () => { page.linked = link ? link.open : false; panels.all(); } });
+link = new Link(location.hash.slice(1), { taken, changed: () => {
+  page.linked = link ? link.open : false;
+  if (page.linked && page.unsent && performance.now() - page.unsent < UNSENT_MS) stop(); // pressed while there was no connection
+  panels.all();
+} });
 requestAnimationFrame(frame);
