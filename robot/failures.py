@@ -169,6 +169,11 @@ CATALOGUE: dict[str, FailureKind] = {
         "look at its power and cable: humanoid motors check",
         spoils="robot",
     ),
+    "imu_fault": FailureKind(
+        "the IMU tells nothing that can be believed",
+        "look at its cable and its power, and start the robot anew",
+        spoils="robot",
+    ),
     "battery_low": FailureKind("the battery is nearly empty", "charge it", spoils="robot"),
     "emergency_stop": FailureKind(
         "the emergency stop was pressed", "release it, then reset it", spoils="robot"

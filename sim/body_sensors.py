@@ -13,6 +13,7 @@ from robot.drivers.motor_bus import MotorState
 from robot.errors import DescriptionError, Problem
 from robot.model.body import SIDES
 from robot.model.description import RobotDescription
+from robot.reality.faults import ImuFault
 from robot.se3 import Array, quat_to_matrix
 from sim.flaws import PINION_RADIUS_M, Flaws, ImuFlaws, JointFlaws, slides
 from sim.motors import Motors
@@ -30,6 +31,7 @@ class BodySensors:
 
     Attributes:
         turns: how fast the floor turns, in W [rad/s]; None: it does not.
+        imu_broken: how the IMU is; None: it is not.
     """
 
     def __init__(
@@ -80,6 +82,8 @@ class BodySensors:
         self._drift: Array = np.zeros(len(self._sigma) - 3 * n - 6)
         self._last_s = 0.0
         self.turns: tuple[float, float, float] | None = None
+        self.imu_broken: ImuFault | None = None
+        self._last_felt: ImuReading | None = None
         self._imu_rotation = data.site_xmat[model.site(description.sensors.imu.site).id]
         if flaws is not None:
             self.spoil_imu(ImuFlaws())
@@ -136,9 +140,22 @@ class BodySensors:
             watchdog=motors.watchdog,
             command_stamp_s=motors.command_stamp_s,
         )
-        imu = ImuReading(stamp_s, rest[:3], rest[3:6])
+        imu = self._felt(ImuReading(stamp_s, rest[:3], rest[3:6]))
         force = ForceReading(stamp_s, rest[6:18].reshape(2, 6), wrists)
         return BodySample(state, imu, force)
+
+    def _felt(self, imu: ImuReading) -> ImuReading:
+        """What a broken IMU makes of a reading."""
+        last = self._last_felt
+        if self.imu_broken is None or last is None:
+            self._last_felt = imu
+            return imu
+        if self.imu_broken == "silent":
+            return last
+        if self.imu_broken == "frozen":
+            return ImuReading(imu.stamp_s, last.gyro_rad_s, last.accel_m_s2)
+        nothing = np.full(3, math.nan)
+        return ImuReading(imu.stamp_s, nothing, nothing)
 
     def _next_noise(self, rng: np.random.Generator) -> Array:
         """Noise of one measurement; drawn for many at once, which is cheaper."""

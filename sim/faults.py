@@ -10,6 +10,7 @@ from robot.drivers.registry import SENSES
 from robot.errors import ConfigError
 from robot.model.description import RobotDescription
 from robot.reality.faults import (
+    BreakImu,
     CoverLidar,
     Delay,
     Discharge,
@@ -100,7 +101,7 @@ def apply(plant: Plant, fault: Fault) -> None:
             _deceive(plant, fault)
         case Kidnap():
             _kidnap(plant, fault)
-        case OffsetImu() | Sill() | Slope() | Load() | Delay():
+        case OffsetImu() | BreakImu() | Sill() | Slope() | Load() | Delay():
             _worsen(plant, fault)
         case Heat() | MotorOff():
             names = list(plant.robot.motor_names)
@@ -149,13 +150,15 @@ def _kidnap(plant: Plant, fault: Kidnap) -> None:
     data.qvel[moving : moving + 3] = turn.rotation() @ data.qvel[moving : moving + 3]
 
 
-def _worsen(plant: Plant, fault: OffsetImu | Sill | Slope | Load | Delay) -> None:
+def _worsen(plant: Plant, fault: OffsetImu | BreakImu | Sill | Slope | Load | Delay) -> None:
     match fault:
         case OffsetImu():
             roll, pitch, yaw = (math.radians(angle) for angle in fault.askew_deg)
             x, y, z = (math.radians(rate) for rate in fault.gyro_deg_s)
             askew = SE3.from_rpy(roll, pitch, yaw, (0.0, 0.0, 0.0)).quat_wxyz
             plant.spoil_imu(ImuFlaws((x, y, z), fault.accel_m_s2, askew))
+        case BreakImu():
+            plant.break_imu(fault.how, fault.duration_s)
         case Sill():
             name = BUMP if fault.round_bump else SILL
             X = plant.oracle.X_WB().flat() @ SE3.from_xy_yaw(fault.ahead_m, fault.left_m, 0.0)

@@ -20,7 +20,7 @@ from robot.messages import EyesBy, LocalisedBy, Message, Place
 from robot.model.description import RobotDescription
 from robot.physics import GRAVITY_M_S2
 from robot.reality.contract import IDEAL
-from robot.reality.faults import check_name
+from robot.reality.faults import ImuFault, check_name
 from robot.se3 import SE3, Array
 from sim import atlas
 from sim.assembly import compile_scene
@@ -239,6 +239,12 @@ class Plant:
     def spoil_imu(self, flaws: ImuFlaws) -> None:
         """From now on the IMU is off by that, besides its noise."""
         self._body.spoil_imu(flaws)
+
+    def break_imu(self, how: ImuFault, duration_s: float) -> None:
+        """For so long the IMU is silent, tells the same for ever, or no numbers."""
+        self._body.imu_broken = how
+        if math.isfinite(duration_s):
+            self.after(duration_s, partial(setattr, self._body, "imu_broken", None))
 
     def lean(self, rise_rad: float, uphill_rad: float) -> None:
         """Let the floor rise towards an angle of the world: gravity leans the other way.

@@ -18,7 +18,7 @@ from executive.engine.estop import EmergencyStop
 from executive.health import Finding, Health, Level
 from robot.bus.topics import TOPICS, Silence
 from robot.failures import failure
-from robot.messages import BodyState, CameraState, LoopTiming, PowerState, WorldState
+from robot.messages import IMU, BodyState, CameraState, LoopTiming, PowerState, WorldState
 
 START_UP_S = 10.0
 """How long the first message of a topic may take after the start."""
@@ -343,13 +343,13 @@ def _fall(body: BodyState) -> list[Finding]:
 
 
 def _alarms(body: BodyState) -> list[Finding]:
-    """What the motors' driver says is wrong, at its own level."""
+    """What the motors' driver says is wrong, or the controller of its IMU, at its own level."""
     return [
         Finding(
-            name=f"motor {alarm.who}",
+            name=alarm.who if alarm.who == IMU else f"motor {alarm.who}",
             level=Level.SIT if alarm.level == "OFF" else Level[alarm.level],
             failure=failure(
-                "motor_fault",
+                "imu_fault" if alarm.who == IMU else "motor_fault",
                 f"{alarm.who}: {alarm.cause}",
                 suggestion=alarm.cure,
                 who=alarm.who,

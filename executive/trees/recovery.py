@@ -108,6 +108,7 @@ RULES: dict[str, Rule] = {
     "sensor_silent": _first(wait=2, ask=1),
     "overheated": NONE,
     "motor_fault": NONE,
+    "imu_fault": NONE,
     "battery_low": NONE,
     "emergency_stop": NONE,
     "overloaded": _first(wait=2),

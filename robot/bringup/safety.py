@@ -10,7 +10,7 @@ from typing import TypeAlias
 import msgspec
 
 from robot.bringup.motor_families import FAMILIES
-from robot.control import limits, lowering, main, starting
+from robot.control import imu_watch, limits, lowering, main, starting
 from robot.control.loop import BUS_PERIOD_S
 from robot.drivers.motors import motor_map, watching
 from robot.drivers.motors.alarms import DOES, Kind, Level
@@ -18,6 +18,7 @@ from robot.drivers.motors.can import watching as can_watching
 from robot.drivers.motors.dynamixel import watching as servo_watching
 from robot.drivers.motors.ethernet import watching as board_watching
 from robot.drivers.motors.pwm import watching as pulse_watching
+from robot.fusion import base_state
 from robot.owner import reactions
 
 Rows: TypeAlias = list[list[str]]
@@ -99,6 +100,15 @@ def controller() -> Rows:
             f"squats to {100 * lowering.LOW_SHARE:g} % of its height (from a walk, after the "
             "step), stays there, refuses orders to its legs; until it is started anew",
             f"{period_ms:g} ms",
+        ],
+        [
+            f"no new reading of the IMU for {1000 * imu_watch.SILENT_S:g} ms; the same numbers for "
+            f"{1000 * imu_watch.FROZEN_S:g} ms; {imu_watch.NO_NUMBERS} readings in a row that are "
+            "no numbers",
+            "the same (`imu_fault`): its legs alone tell how it turns; where no foot bears it for "
+            f"{1000 * base_state.LOST_S:g} ms, it damps",
+            f"{1000 * imu_watch.SILENT_S + period_ms:g}; {1000 * imu_watch.FROZEN_S + period_ms:g}"
+            f"; {imu_watch.NO_NUMBERS * period_ms:g} ms",
         ],
         [
             "a command past a limit of position, speed or torque",

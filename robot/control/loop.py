@@ -15,6 +15,7 @@ from robot.control.foresight import Foresight
 from robot.control.getting_up import GettingUp
 from robot.control.hand import HandControl
 from robot.control.head import Head, WaistGaze
+from robot.control.imu_watch import ImuWatch
 from robot.control.latency import Latency
 from robot.control.legs import Legs
 from robot.control.limits import Limits
@@ -44,6 +45,7 @@ from robot.messages import (
     ImuBias,
     Look,
     Mode,
+    MotorAlarm,
     MoveArm,
     MoveHand,
     OneLeg,
@@ -92,6 +94,7 @@ class ControlLoop:
         self._foresight = Foresight()
         self._weight_n = self.body.mass_kg * GRAVITY_M_S2
         self._lowering = Lowering(description.walking.base_height_m)
+        self._imu_watch = ImuWatch()
 
     def recall(self, state: BodyState | None) -> None:
         """Begin with what the controller before this one knew of the IMU, if it said so."""
@@ -148,6 +151,8 @@ class ControlLoop:
                 height_m=self._lowering.height_m,
             )  # fmt: skip
             legs.stand(down)
+        elif self._getting_up is not None and self._imu_watch.is_blind:
+            self._fall(self._lowering.reason.cause if self._lowering.reason else "")
 
     # --- commands ------------------------------------------------------------------------------
 
@@ -246,7 +251,7 @@ class ControlLoop:
 
     def tick(self, sample: BodySample) -> MotorCommand:
         """One bus period: read what the body feels, return what to send."""
-        state, imu = sample.motors, sample.imu
+        state, imu = sample.motors, self._imu_watch.take(sample)
         if not self._started:
             taking_over = starting.took_over(state)
             self._start(sample, taking_over=taking_over)
@@ -254,7 +259,7 @@ class ControlLoop:
             if taking_over:
                 self._take_over(state)
         self._sample = sample
-        if state.alarms and self._lowering.heed(state.alarms):
+        if (alarms := self._alarms(state)) and self._lowering.heed(alarms):
             self._lower()
         self.latency.felt(state)
         self._gyro += imu.gyro_rad_s
@@ -284,7 +289,11 @@ class ControlLoop:
         # Lying, no foot bears anything that would hold a drift.
         estimator.lying = self.mode == "fallen" or self._getting_up is not None
         estimator.hangs = self.legs.gait.hangs()
-        estimator.predict(dt_s, self._gyro / self._samples, self._accel / self._samples)
+        if self._imu_watch.is_blind:
+            estimator.coast(dt_s, dynamics.turn_by_soles(state.qd, estimator.load))
+            self.limits.tripped = self.limits.tripped or estimator.is_lost
+        else:
+            estimator.predict(dt_s, self._gyro / self._samples, self._accel / self._samples)
         self._gyro[:] = 0.0
         self._accel[:] = 0.0
         self._samples = 0
@@ -386,6 +395,10 @@ class ControlLoop:
         if self.legs.activity.status == "running":
             self.legs.activity = Activity(id=self.legs.activity.id, status="failed", detail=why)
 
+    def _alarms(self, state: MotorState) -> tuple[MotorAlarm, ...]:
+        """What is wrong with IMU and motors, the most severe first."""
+        return (*self._imu_watch.alarms, *state.alarms)
+
     # --- what it knows -------------------------------------------------------------------------
 
     @property
@@ -431,7 +444,7 @@ class ControlLoop:
             most_clamped=self.limits.most_clamped,
             refused=self.limits.refused,
             temperature_c=tuple(state.temperature_c.tolist()),
-            alarms=state.alarms,
+            alarms=self._alarms(state),
             failure=self._failure,
             since_s=self._since_s,
             imu=self.estimator.imu_bias,

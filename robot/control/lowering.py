@@ -1,4 +1,4 @@
-"""What is left to a robot one of whose motors broke: it squats on what it has, and stays there.
+"""What is left to a robot whose motor or IMU broke: it squats on what it has, and stays there.
 
 Low, it falls least deep if more breaks, and a person can take it. It takes no orders for its legs
 any more; who starts it anew has looked at the motor before.
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from robot.failures import Failure, failure
-from robot.messages import MotorAlarm
+from robot.messages import IMU, MotorAlarm
 
 LOW_SHARE = 0.7
 """Of the standing height: about as low as it can squat."""
@@ -35,5 +35,6 @@ class Lowering:
         worst = alarms[0]
         text = f"{worst.who}: {worst.cause}"
         evidence = {"who": worst.who, "alarm": worst.code}
-        self.reason = failure("motor_fault", text, suggestion=worst.cure, **evidence)
+        code = "imu_fault" if worst.who == IMU else "motor_fault"
+        self.reason = failure(code, text, suggestion=worst.cure, **evidence)
         return True

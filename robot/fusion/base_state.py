@@ -26,6 +26,9 @@ CORRECT_EVERY_S = 0.01
 between, the IMU tells enough, and asking costs five times what integrating it does."""
 LYING_GAIN_1_S = 0.05
 ABOUT_1_G_M_S2 = 2.0
+BEARS_SHARE, LOST_S = 0.1, 0.2
+"""Without an IMU: of the weight, on a foot that bears; for so long none may. One foot of a walk
+always does."""
 
 
 class BaseStateEstimator:
@@ -66,6 +69,7 @@ class BaseStateEstimator:
         self._positions: Array = np.zeros((2, 3))
         self._rotations: Array = np.zeros((2, 3, 3))
         self._since_s = 0.0
+        self._borne_by_none_s = 0.0
         if known is not None:
             self._recall(known)
 
@@ -98,6 +102,33 @@ class BaseStateEstimator:
         else:
             state.predict(dt_s, gyro_rad_s, accel_m_s2)
         self._show()
+
+    def coast(self, dt_s: float, w_B: Array) -> None:
+        """Go on without an IMU, whose readings are not believed any more, over `dt_s`.
+
+        The feet alone then tell where the base goes (`ContactFilter.mistrust`).
+
+        Args:
+            dt_s: time that has passed.
+            w_B: how fast the base turns by the soles that bear, in B [rad/s], shape (3,).
+        """
+        state = self._filter
+        state.mistrust()
+        bears = self.lying or max(self.load) > BEARS_SHARE
+        self._borne_by_none_s = 0.0 if bears else self._borne_by_none_s + dt_s
+        self.w_B = w_B
+        if not self.lying:
+            still: Array = state.rotation.T @ (0.0, 0.0, GRAVITY_M_S2)
+            gyro = self._R_BI.T @ w_B
+            state.predict(dt_s, gyro + state.gyro_bias, still + state.accel_bias)
+        self._show()
+
+    @property
+    def is_lost(self) -> str:
+        """Why nothing tells any more which way is up; empty while something does."""
+        if self._borne_by_none_s < LOST_S:
+            return ""
+        return "the IMU is not to be believed, and no foot bears the robot"
 
     def correct(
         self, dt_s: float, soles: list[Array], rotations: list[Array], ankle_force_z: Array

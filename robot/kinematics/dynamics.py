@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import mujoco
 import numpy as np
 
 from robot.model.body import SIDES, BodyModel
 from robot.se3 import Array
+
+LEAST_LOAD = 0.08
+"""Share of the weight under which a foot tells nothing of how the base turns."""
 
 
 class Dynamics:
@@ -61,6 +66,22 @@ class Dynamics:
         mujoco.mj_jacSite(model, data, left_p, left_r, left)
         mujoco.mj_jacSite(model, data, right_p, right_r, right)
         self.jac.dot(self._qvel, out=self.sole_velocity)
+
+    def turn_by_soles(self, qd: Array, load: Sequence[float]) -> Array:
+        """How fast the base turns if the soles that bear do not, in B [rad/s], shape (3,).
+
+        By the Jacobians of the last `kinematics`, which change little in a tick.
+
+        Args:
+            qd: of the motors, shape (n,).
+            load: share of the weight on each foot; nothing turns where none bears.
+        """
+        whole = max(sum(load), 1e-9)
+        turn: Array = np.zeros(3)
+        for jac, share in zip(self.jac_sole, load, strict=True):
+            if share > LEAST_LOAD:
+                turn -= share / whole * (jac[3:, self.body.dof_of] @ qd)
+        return self.data.xmat[self.body.base_body].reshape(3, 3).T @ turn
 
     def shift_base_velocity(self, shift_m_s: tuple[float, float, float]) -> None:
         """Add to the base's linear velocity, after `kinematics`."""

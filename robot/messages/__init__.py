@@ -24,6 +24,7 @@ from robot.messages.basics import (
     Source,
 )
 from robot.messages.body_state import (
+    IMU,
     Activity,
     BodyState,
     HandState,
@@ -79,6 +80,7 @@ from robot.messages.world_state import (
 )
 
 __all__ = [
+    "IMU",
     "Activity",
     "AskedEyes",
     "AskedLocalisation",

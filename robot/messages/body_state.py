@@ -42,8 +42,12 @@ class ImuBias(msgspec.Struct, frozen=True, kw_only=True):
     accel_sigma_m_s2: Vector3
 
 
+IMU = "IMU"
+"""Whom an alarm of it concerns."""
+
+
 class MotorAlarm(msgspec.Struct, frozen=True):
-    """One thing wrong with a motor or its bus, as its driver says.
+    """One thing wrong with a motor or its bus, as its driver says, or with the IMU (`IMU`).
 
     `code` is for programs (`silent`), `who` the joint or the bus; `level` what is done, mild first:
     WARN, DERATE (less torque), HOLD (the last targets are kept), SIT (the robot is lowered, and it

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, Literal, get_args
+from typing import Any, Literal, TypeAlias, get_args
 
 import msgspec
 
@@ -163,6 +163,17 @@ class OffsetImu(FaultRecord, frozen=True, kw_only=True):
     askew_deg: tuple[q.Askew, q.Askew, q.Askew] = (0.0, 0.0, 0.0)
 
 
+ImuFault: TypeAlias = Literal["silent", "frozen", "no_numbers"]
+"""How an IMU breaks: no reading comes, each is the same as the last, or none is a number."""
+
+
+class BreakImu(FaultRecord, frozen=True, kw_only=True):
+    """For `duration_s` the IMU is `silent`, `frozen` (new stamps, old numbers) or `no_numbers`."""
+
+    how: ImuFault = "silent"
+    duration_s: q.Span = math.inf
+
+
 class Sill(FaultRecord, frozen=True, kw_only=True):
     """A sill, 6 cm deep and 1.2 m wide, lies across the way of the robot; of no height: it is gone.
 
@@ -222,8 +233,8 @@ class Kill(FaultRecord, frozen=True, kw_only=True):
 
 Fault = (
     Push | Shove | KnockOver | Move | Occupy | StandInWay | Remove | Silence | Mislead
-    | Kidnap | CoverLidar | OffsetImu | Sill | Slope | Load | Delay | Heat | Discharge | MotorOff
-    | Kill
+    | Kidnap | CoverLidar | OffsetImu | BreakImu | Sill | Slope | Load | Delay | Heat | Discharge
+    | MotorOff | Kill
 )  # fmt: skip
 KINDS: dict[str, type[FaultRecord]] = {_name(kind.__name__): kind for kind in get_args(Fault)}
 """Name to fault."""

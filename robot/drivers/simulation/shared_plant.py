@@ -24,7 +24,7 @@ from robot.errors import DriverError
 from robot.model.description import RobotDescription
 from robot.se3 import Array
 
-MAGIC = b"HUMOTOR1"
+MAGIC = b"HUMOTOR2"
 HEADER = struct.Struct("<8sQ32s16x")
 NAME = "motors"
 """Of the file."""
@@ -39,7 +39,7 @@ def _command_size(count: int) -> int:
 
 
 def _sample_size(count: int) -> int:
-    return 3 + 4 * count + 30
+    return 4 + 4 * count + 30
 
 
 class PlantMemory(Turns):
@@ -260,7 +260,7 @@ def _pack(sample: BodySample) -> Array:
     state, imu, force = sample.motors, sample.imu, sample.force
     return np.concatenate(
         (
-            (state.stamp_s, state.command_stamp_s, float(state.watchdog)),
+            (state.stamp_s, state.command_stamp_s, float(state.watchdog), imu.stamp_s),
             state.q,
             state.qd,
             state.tau,
@@ -276,8 +276,8 @@ def _pack(sample: BodySample) -> Array:
 def _unpack(values: Array, age_s: Array) -> BodySample:
     count = len(age_s)
     stamp_s = float(values[0])
-    rows = values[3 : 3 + 4 * count].reshape(4, count)
-    rest = values[3 + 4 * count :]
+    rows = values[4 : 4 + 4 * count].reshape(4, count)
+    rest = values[4 + 4 * count :]
     state = MotorState(
         stamp_s=stamp_s,
         q=rows[0],
@@ -288,6 +288,6 @@ def _unpack(values: Array, age_s: Array) -> BodySample:
         watchdog=bool(values[2]),
         command_stamp_s=float(values[1]),
     )
-    imu = ImuReading(stamp_s, rest[:3], rest[3:6])
+    imu = ImuReading(float(values[3]), rest[:3], rest[3:6])
     force = ForceReading(stamp_s, rest[6:18].reshape(2, 6), rest[18:30].reshape(2, 6))
     return BodySample(state, imu, force)

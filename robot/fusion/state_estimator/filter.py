@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from msgspec.structs import replace
 
 from robot.fusion.state_estimator.parameters import Parameters
 from robot.physics import GRAVITY_M_S2
@@ -32,6 +33,10 @@ LEVEL_EVERY_S = 0.05
 MOST_BEHIND_S = 0.01
 """So long the covariance may lag behind the state: integrating the state costs a tenth as much. A
 correction comes every 10 ms, which catches up; longer it lags only where no foot stands."""
+
+UNFELT_GYRO_RAD_S_RTHZ, UNFELT_ACCEL_M_S2_RTHZ = 0.02, 1.0
+"""Without an IMU: how the base is taken to turn and to go on against what it does. Ten times as
+much and half as much were tried, and Juno came down on its feet as well; the IMU's own did not."""
 
 NOISE_OF_TILT = 6.0
 """Squares of `foot_rad` that a sole's tilt, of two axes, is off by in one look of twenty."""
@@ -184,6 +189,22 @@ class ContactFilter:
         diagonal[3:6] += k.accel_m_s2_rthz**2 * dt_s
         diagonal[21:24] += k.gyro_bias_walk_rad_s_rts**2 * dt_s
         diagonal[24:27] += k.accel_bias_walk_m_s2_rts**2 * dt_s
+
+    def mistrust(self) -> None:
+        """From now on what is predicted is not of an IMU, but as if the base turned and went on.
+
+        Its biases are kept as they are. Idempotent.
+        """
+        k = self.parameters
+        if k.gyro_rad_s_rthz == UNFELT_GYRO_RAD_S_RTHZ:
+            return
+        self._catch_up()
+        self.parameters = replace(
+            k, gyro_rad_s_rthz=UNFELT_GYRO_RAD_S_RTHZ, accel_m_s2_rthz=UNFELT_ACCEL_M_S2_RTHZ,
+            gyro_bias_walk_rad_s_rts=0.0, accel_bias_walk_m_s2_rts=0.0,
+        )  # fmt: skip
+        self.covariance[GYRO_BIAS.start :, :] = 0.0
+        self.covariance[:, GYRO_BIAS.start :] = 0.0
 
     # --- feet ----------------------------------------------------------------------------------
 

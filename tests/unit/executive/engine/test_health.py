@@ -369,6 +369,17 @@ def test_an_alarm_of_a_motor_is_told_at_its_level_with_joint_cause_and_cure(robo
     assert (health.speed_m_s < 1.0) == (level == "DERATE")
 
 
+def test_an_imu_that_broke_is_told_as_such_and_ends_the_task(robot):
+    alarm = MotorAlarm("imu_frozen", "IMU", "SIT", "it tells the same for 52 ms", "look at it")
+    body = replace(robot.body(), alarms=(alarm,))
+    stamps = dict.fromkeys(RATES, 100.0)
+    health = HealthMonitor(RATES, start_s=0.0, speed_m_s=1.0).look(
+        100.0, stamps, body=body, world=None
+    )
+    (finding,) = health.findings
+    assert (finding.name, finding.level, finding.failure.code) == ("IMU", Level.SIT, "imu_fault")
+
+
 def test_a_robot_that_is_lost_stands_and_says_why():
     watch = HealthMonitor({}, start_s=0.0)
     lost = replace(where(1.0, 0), lost="I am lost: it is dark")
