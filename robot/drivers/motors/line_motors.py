@@ -25,7 +25,7 @@ from robot.drivers.motors.holding import Holding
 from robot.drivers.motors.life import Life, not_let_go, unheard
 from robot.drivers.motors.limiter import Limiter, Measured
 from robot.drivers.motors.motor_map import MotorMap
-from robot.drivers.motors.periods import Periods
+from robot.drivers.motors.periods import LOOKS, Periods
 from robot.drivers.motors.plant_behind import PlantBehind
 from robot.drivers.motors.speed_check import SpeedCheck
 from robot.drivers.motors.transmission import Transmission
@@ -261,11 +261,16 @@ class LineMotors(Closing, Generic[M, L, H, W]):
         lines = self._life.lines
         self._before(lines)
         if waits:
-            self._periods.wait(self._hear)
+            self._periods.wait(self._hear, looks=self._looks)
         self._end(lines)
         for line, why in lines.gone.items():
             self._watch.unplugged(line, why)
         return self._state()
+
+    @property
+    def _looks(self) -> int:
+        """How often in this period it is looked what came in."""
+        return LOOKS
 
     def _before(self, lines: L) -> None:
         """Ask motors for their state, where no command did in this period."""

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from robot.clock import Clock
 
 LOOKS = 2
-"""A period, for what came in: to wake up for every reply would take a third of a core more."""
+"""A period, for what came in, where a family does not say otherwise: to wake up for every reply
+would take a third of a core more."""
 ANSWERED = 0.5
 """Of a period, for replies to what went out after its end: else all of them would be late, and what
 goes out next, too."""
@@ -32,11 +33,12 @@ class Periods:
         """One begins now, whatever was before."""
         self._ends_s = self._clock.now_s() + self._period_s
 
-    def wait(self, look: Callable[[], None]) -> None:
+    def wait(self, look: Callable[[], None], *, looks: int = LOOKS) -> None:
         """Wait for the end of this one; the next begins there.
 
         Args:
             look: takes what came in, now and then.
+            looks: so often in a period, the last time at its end.
         """
         now_s = self._clock.now_s()
         if now_s > self._ends_s + self._period_s:
@@ -46,7 +48,7 @@ class Periods:
             self._ends_s = now_s + self._period_s * ANSWERED
         until_s = self._ends_s
         while True:
-            look_s = self._clock.now_s() + self._period_s / LOOKS
+            look_s = self._clock.now_s() + self._period_s / looks
             self._clock.sleep_until(min(until_s, look_s))
             look()
             if (ended_s := self._clock.now_s()) >= until_s - SAME_S:
