@@ -60,8 +60,7 @@ class Limiter:
         self._kd: Array = np.array([motor.kd_most for motor in motors])
         self._hot_c: Array = np.array([motor.over_temperature_c for motor in motors])
         self._period_s = joints.period_s
-        self._last: Array | None = None
-        self._last_s = 0.0
+        self._last: tuple[Array, float] | None = None
 
     def forget(self) -> None:
         """The next target starts from where the joints are."""
@@ -93,7 +92,7 @@ class Limiter:
             self.clipped["torque"] += count
             scale = np.divide(most, total, out=np.ones_like(total), where=over)
             kp, kd, tau_ff = kp * scale, kd * scale, tau_ff * scale
-        self._last, self._last_s = np.where(kp > 0.0, q_des, measured.q), command.stamp_s
+        self._last = np.where(kp > 0.0, q_des, measured.q), command.stamp_s
         return MotorCommand(command.stamp_s, q_des, qd_des, tau_ff, kp, kd)
 
     def check(self, command: MotorCommand) -> None:
@@ -114,8 +113,9 @@ class Limiter:
 
     def _steady(self, q_des: Array, command: MotorCommand, q: Array) -> Array:
         """No target moves faster than its joint may, from the one before or from where it is."""
-        begin = q if self._last is None else self._last
-        since_s = command.stamp_s - self._last_s if self._last is not None else self._period_s
+        begin, since_s = q, self._period_s
+        if self._last is not None:
+            begin, since_s = self._last[0], command.stamp_s - self._last[1]
         step = self._speed * min(max(since_s, self._period_s), 2.0 * self._period_s)
         begin = np.minimum(np.maximum(begin, self._lower), self._upper)
         kept = np.minimum(np.maximum(q_des, begin - step), begin + step)

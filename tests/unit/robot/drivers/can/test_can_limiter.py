@@ -161,3 +161,22 @@ def test_forgetting_begins_where_the_joint_is():
     limiter.forget()
     got = limiter.apply(make(0.002, q_des=1.0, kp=1.0), rest(1.0))
     np.testing.assert_allclose(got.q_des, 1.0)
+
+
+@pytest.mark.parametrize("forgets", [False, True])
+def test_the_first_target_moves_by_one_period_however_late_it_is(forgets: bool):
+    """Nobody knows for how long the joint stood still before: two periods' worth is for later."""
+    limiter = Limiter(JOINTS)
+    if forgets:
+        limiter.apply(make(stamp_s=1000.0, q_des=1.0, kp=1.0), rest(q=1.0))
+        limiter.forget()
+    got = limiter.apply(make(stamp_s=5000.0, q_des=2.0, kp=1.0), rest())
+    assert got.q_des == pytest.approx(np.full(N, SPEED * PERIOD_S))
+
+
+@pytest.mark.parametrize("tau_ff", [TORQUE, -TORQUE])
+def test_what_is_just_the_limit_is_not_counted_as_clipped(tau_ff: float):
+    limiter = Limiter(JOINTS)
+    got = limiter.apply(make(tau_ff=tau_ff), rest())
+    assert (got.tau_ff == tau_ff).all()
+    assert limiter.clipped["torque"] == 0
