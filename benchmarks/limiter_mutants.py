@@ -18,7 +18,7 @@ import time
 import types
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, TypeGuard
 
 import hypothesis
 import mujoco
@@ -66,7 +66,8 @@ def _behaving(node: ast.AST) -> Iterator[ast.AST]:
     for field, value in ast.iter_fields(node):
         if field in {"annotation", "returns"}:
             continue
-        for child in value if isinstance(value, list) else [value]:
+        children: list[object] = value if isinstance(value, list) else [value]
+        for child in children:
             if isinstance(child, ast.AST):
                 yield from _behaving(child)
 
@@ -91,11 +92,15 @@ def _changes(node: ast.AST) -> Iterator[tuple[str, _Change]]:
         field = "attr" if isinstance(node, ast.Attribute) else "id"
         if (name := getattr(node, field)) in OTHERS:
             yield f"{name} to {OTHERS[name]}", _Change(field, OTHERS[name])
-    elif isinstance(node, ast.Constant) and type(node.value) in (int, float):
-        value = node.value * FACTOR if node.value else 1
-        yield f"{node.value} to {value:g}", _Change("value", value)
+    elif isinstance(node, ast.Constant) and _is_number(value := node.value):
+        other_value = value * FACTOR if value else 1
+        yield f"{value} to {other_value:g}", _Change("value", other_value)
     elif isinstance(node, ast.FunctionDef):
         yield from _left_out(node)
+
+
+def _is_number(value: object) -> TypeGuard[int | float]:
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _left_out(node: ast.FunctionDef) -> Iterator[tuple[str, _Change]]:
