@@ -8,6 +8,7 @@ from msgspec.structs import replace
 
 from intents.english.phrases.phrase import Locative, NounPhrase
 from intents.english.phrases.pronouns import HELD
+from intents.english.phrases.told_by_color import of_color
 from intents.english.trouble import Doubtful, Misfit, NotUnderstood, Unclear, listing
 from intents.english.words.lexer import singular
 from intents.english.words.names import NameIndex
@@ -229,6 +230,9 @@ def _object_name(phrase: NounPhrase, scope: Scope, spots: bool) -> tuple[str, st
     if phrase.noun == "unknown" or not names:
         raise _unknown("object", phrase, scope, _OBJECTS)
     if len(names) > 1 and not phrase.exact:
+        told = of_color(names, phrase.color, scope.index)
+        if len(told) == 1:
+            return (told[0], "") if told[0] in phrase.all_names("object") else ("", told[0])
         kind = _kind(names)
         if kind and _where(phrase, scope)[1] is not None:
             return kind, ""  # which jam it is that is next to the milk is seen there

@@ -87,6 +87,7 @@ class NameIndex:
         colors: Colour words and what they mean, with those that only this world has ("teal").
         furniture: Names of places that are walked up to and nothing else.
         rooms: Names of the rooms.
+        looks: By name and by category, the colours of what is called so; "" for one not told.
     """
 
     def __init__(self, vocabulary: Vocabulary) -> None:
@@ -99,6 +100,7 @@ class NameIndex:
         self.colors = told | COLORS
         self.words: frozenset[str] = frozenset(told)
         self._variants = _variants(vocabulary)
+        self.looks = _looks(vocabulary, self.colors)
         self._categories = {t.name: t.category for t in vocabulary.objects}
         self.rooms = tuple(dict.fromkeys(s.name for s in vocabulary.rooms))
         floors = [s.name for s in (*vocabulary.rooms, *vocabulary.places) if not s.furniture]
@@ -272,6 +274,15 @@ def _variants(vocabulary: Vocabulary) -> dict[str, tuple[str, ...]]:
             if len(things) > 1 and all(marks) and len(set(marks)) == len(marks):
                 told.setdefault(name, tuple(marks))
     return told
+
+
+def _looks(vocabulary: Vocabulary, meant: dict[str, str]) -> dict[str, frozenset[str]]:
+    """By name and by category, the colours of the things that are called so."""
+    found: dict[str, set[str]] = {}
+    for thing in vocabulary.objects:
+        for name in {thing.name, thing.category} - {""}:
+            found.setdefault(name, set()).add(meant.get(thing.color, thing.color))
+    return {name: frozenset(colors) for name, colors in found.items()}
 
 
 def _aliases(vocabulary: Vocabulary) -> list[tuple[Name, str]]:

@@ -39,6 +39,7 @@ from intents.english.words.names import Match, NameIndex, index_of
 from intents.english.words.nearing import nearest_first
 from intents.english.words.notes import in_sentences
 from intents.english.words.particles import without_particles
+from intents.english.words.passing_through import by_way_of
 from intents.english.words.pauses import pauses_as_waits
 from intents.english.words.precise import plain_quantities
 from intents.english.words.presence import being_there
@@ -190,7 +191,7 @@ class Text:
         self.manners: list[Manner]
         corrected, self.manners = manners(corrected)
         flowing = led(laid(whereabouts(fluent(corrected, self.index), self.index)))
-        ordered = in_order(hauled(flowing, self.index), self.index)
+        ordered = in_order(by_way_of(hauled(flowing, self.index), self.index), self.index)
         plain = singled_out(_without_fillers(ordered, self.index), self.index)
         plain = _unfinished(
             unrepeated(being_there(conditional_questions(checked_states(plain), self.index)))
