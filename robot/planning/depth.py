@@ -43,7 +43,7 @@ def too_deep(
 
 def _support(problem: HandlingProblem, at: Array) -> Solid | None:
     """The level box that the object stands on."""
-    bottom_m = float(at[2] + problem.shape.X_BodyShape.p[2] - 0.5 * problem.shape.size_m[2])
+    bottom_m = float(at[2]) - problem.below_m
     for solid in problem.others:
         x, y, _ = np.abs(np.array(solid.X_WG.inverse().apply((at[0], at[1], solid.X_WG.p[2]))))
         inside = x <= 0.5 * solid.size_m[0] and y <= 0.5 * solid.size_m[1]

@@ -29,6 +29,7 @@ class HandlingProblem:
     Attributes:
         kind: see `handling`.
         object_id, shape: what is handled.
+        below_m: how far it goes down from its origin, as it stands or lies there.
         options, references, reference_cost: see `stances.propose`.
         others: all solids without the object.
         lifts_m: heights of *up* over *main*, liked best first.
@@ -48,6 +49,7 @@ class HandlingProblem:
     walk_cost_per_m: float
     people: Array
     what: str
+    below_m: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

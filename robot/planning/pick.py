@@ -14,7 +14,7 @@ from robot.planning.handling_problem import Choice, HandlingProblem
 from robot.planning.reach import Targets, Trunks
 from robot.planning.requests import Held, Joints, ObjectPose, PickPlan, PickRequest, pitched_rad
 from robot.planning.robot_body import UPRIGHT, Body
-from robot.planning.solids import Solid, people_of, solids_of
+from robot.planning.solids import Solid, people_of, solid, solids_of
 from robot.planning.stances import posture_of
 from robot.se3 import SE3, Array
 
@@ -59,6 +59,7 @@ def plan_pick(body: Body, request: PickRequest) -> PickPlan | Failure:
         walk_cost_per_m=request.walk_cost_per_m,
         people=people_of(request.around),
         what="the " + names.get(thing.id, thing.id),
+        below_m=thing.X_WO.p[2] - solid(thing.id, thing.X_WO, thing.shape).z_range_m()[0],
     )
     choice = search(body, problem, floor, sides=sides, start=request.start, seed=request.seed)
     if isinstance(choice, Failure):

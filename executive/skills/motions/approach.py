@@ -25,6 +25,8 @@ from robot.messages import HoldArm, ObjectInfo
 from robot.planning.requests import BodyPosture, Joints, PickPlan, PlacePlan, Stance
 from robot.se3 import SE3
 
+BACK_M, BACK_RAD = 0.06, 0.1
+"""How exactly it steps back to the standoff."""
 TURNED_RAD = 0.35
 """Nearer to the standoff's heading the hand comes up about where it was planned to; before that it
 may be anywhere around the body."""
@@ -193,18 +195,29 @@ def withdraw(body: Body, plan: PickPlan | PlacePlan, arm_rad: Joints, *, what: s
     body.phase = f"stepping back from the {what}"
     X_WS_goal = pose_of(plan.standoff)
     X_WB = X_WS_goal @ _X_SB(body)
-    feet = step_to(body, plan.standoff, position_tolerance_m=0.06, yaw_tolerance_rad=0.1)
+    feet = step_to(body, plan.standoff, position_tolerance_m=BACK_M, yaw_tolerance_rad=BACK_RAD)
     near, steps = False, body.description.handy.reaching.stepping_in
     while not near and next(feet, OVER) is not OVER:
         yield
         # What is held turns between the fingers where a swing of the arm and a step come together:
-        # a cup by 15 degrees, and it was put down 15 mm off.
-        near = (
-            not keep_upright
-            and plan.over is None
-            and _has_room(body, plan.standoff)
+        # a cup by 15 degrees, and it was put down 15 mm off. So its arm waits for the last step,
+        # and not for the feet to have settled after it.
+        near = plan.over is None and (
+            _has_landed(body, X_WS_goal)
+            if keep_upright
+            else _has_room(body, plan.standoff)
             and _is_within(body, X_WS_goal, steps.bring_in_m, steps.bring_in_rad)
         )
     body.phase = f"bringing the {plan.side} arm in"
-    arm = move_arm(body, plan.side, arm_rad, keep_upright=keep_upright, X_WB=X_WB if near else None)
+    on_the_way = (
+        near and not keep_upright
+    )  # a base that has landed is where the feet have brought it
+    arm = move_arm(
+        body, plan.side, arm_rad, keep_upright=keep_upright, X_WB=X_WB if on_the_way else None
+    )
     yield from side_by_side(feet, arm)
+
+
+def _has_landed(body: Body, X_WS_goal: SE3) -> bool:
+    """Whether the feet have made their last step to a stance that need not be met exactly."""
+    return body.state.mode == "stand" and _is_within(body, X_WS_goal, BACK_M, BACK_RAD)

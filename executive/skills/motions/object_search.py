@@ -96,6 +96,7 @@ def _believed(body: Body, object_id: str) -> SE3 | None:
 
 def _check_belief(body: Body, object_id: str, X_WO: SE3) -> Script[SE3 | None]:
     """Look where the object was last, from nearby if need be."""
+    body.phase = f"looking where the {body.object_info(object_id).name} was"
     if math.dist(X_WO.p[:2], body.X_WS.p[:2]) <= SIGHT_M:
         found = yield from _make_out(body, object_id)
         if found is not None:

@@ -333,6 +333,18 @@ def test_what_stands_too_deep_is_refused_with_the_figures(
     assert f"{100 * deep:.0f} cm from the edge, {height:.2f} m up" in refused.cause
 
 
+def test_what_lies_too_deep_is_refused_with_the_figures(solver: Solver) -> None:
+    """Where it lies its lowest point is half of its width below its middle, not of its length."""
+    around = on_a_counter(1.15, 0.30)
+    (cup,) = around.objects
+    low = SE3((*cup.X_WO.p[:2], 1.15 + 0.5 * CUP.size_m[0]), LYING.quat_wxyz)
+    around = msgspec.structs.replace(around, objects=(msgspec.structs.replace(cup, X_WO=low),))
+    refused = pick(solver, around)
+    assert isinstance(refused, Failure)
+    assert refused.code == "out_of_reach"
+    assert "30 cm from the edge, 1.15 m up; a hand comes 15 cm deep there" in refused.cause
+
+
 def test_carrying_is_near_the_body_and_upright(solver: Solver) -> None:
     plan = pick(solver, surroundings(on_table(-0.1, 0.2)))
     assert isinstance(plan, PickPlan)
