@@ -35,6 +35,11 @@ GOOD = 0.25
 """A score that ends the search."""
 PATIENCE = 4
 """So many groups are looked at, at most, from the first that has a good candidate."""
+SWAYING = 0.25
+"""Of such a group, where the best so far sways into something: beside a wall the likeliest four
+groups all have the hand on that side."""
+SWAYING_BATCHES = 3
+"""So many batches more, at most, for one that does not."""
 
 
 def search(
@@ -79,17 +84,19 @@ def _first_good(
     size = LAST_BATCH if last else BATCH
     for first in range(0, len(candidates), size):
         rows = np.arange(first, min(first + size, len(candidates)))
-        patience = PATIENCE
+        patience = float(PATIENCE)
         for choice in passing(body, problem, candidates.take(rows), tally, last=last):
             if choice is not None and choice.score > tally.score:
                 tally.best = choice
             best = tally.best
             if best is not None and best.steadiness == 1.0 and not best.strained:
-                patience -= 1
-                if best.score >= GOOD or not patience:
+                patience -= SWAYING if best.sways else 1.0
+                if best.score >= GOOD or patience <= 0.0:
                     return best
         best = tally.best
-        if best is not None and best.steadiness == 1.0 and (last or not best.strained):
+        if best is None or best.steadiness < 1.0 or (best.strained and not last):
+            continue
+        if not best.sways or first >= SWAYING_BATCHES * size:
             return best
     return tally.best
 

@@ -63,6 +63,7 @@ class Choice:
         margin: 0 to 1, of reach and joint limits at all poses.
         steadiness: share of small errors of the stance under which all are still reached.
         score: margin and steadiness less all costs.
+        sways: whether the arm or the body touches something as the steps in and out sway it.
     """
 
     side: Side
@@ -79,6 +80,7 @@ class Choice:
     steadiness: float
     score: float
     q_away: Array | None = None
+    sways: bool = False
 
     @property
     def strained(self) -> bool:

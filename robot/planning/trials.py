@@ -228,7 +228,7 @@ def _swaying(checker: Checker, choice: Choice, problem: HandlingProblem) -> Choi
         leaving = choice.q_up if problem.kind == "pick" else choice.q_back
     if checker.swaying(choice.q_ready, leaving) is None:
         return choice
-    return replace(choice, score=choice.score - SWAY_COST)
+    return replace(choice, score=choice.score - SWAY_COST, sways=True)
 
 
 def _tight(checker: Checker, choice: Choice) -> Choice:

@@ -20,6 +20,7 @@ from robot.planning.requests import (
     Held,
     ObjectPose,
     PickPlan,
+    PickRequest,
     PlacePlan,
     Surroundings,
 )
@@ -401,6 +402,34 @@ def test_arm_and_body_may_sway_on_the_steps_to_a_shelf(
             scene.pose(X_WS @ SE3((-back_m, aside_m, 0.0)) @ standing.X_SB, q)
             scene.update()
             assert not scene.touches(links, solids_only=True)
+
+
+@pytest.mark.parametrize(("deep_m", "seed"), [(0.19, 1), (0.26, 0)])
+def test_what_is_reached_in_a_corner_leaves_room_to_sway_from_rest(
+    solver: Solver, deep_m: float, seed: int
+) -> None:
+    """Steps that begin standing sway by 9 cm: beside a wall and a cabinet the arm has that room."""
+    cabinet = block("cabinet", 0.55, 2.65, (1.10, 0.50, 0.93))
+    cup = ObjectPose(id="cup", shape=CUP, X_WO=SE3((deep_m, 2.76, 0.93 + 0.5 * CUP.size_m[2])))
+    around = Surroundings(map=room(cabinet), objects=(cup,))
+    plan = solver.solve(
+        PickRequest(object_id="cup", around=around, start=(-0.9, 1.9, 0.5), seed=seed)
+    )
+    assert isinstance(plan, PickPlan)
+    body, side = solver.body, plan.side
+    standing, hand = body.standing(BodyPosture(), side), body.description.hands[side]
+    scene = body.scenes.get(solids_of(around))
+    scene.set_clearance(0.0)
+    hands = {hand.body, *hand.finger_bodies}
+    links = np.array([name not in hands for name in scene.names]) & ~scene.solid_geoms
+    q = standing.q.copy()
+    q[body.arms[side].motors] = plan.ready_rad
+    X_WS = SE3.from_xy_yaw(*plan.stance)
+    step_m = math.dist(plan.stance[:2], plan.standoff[:2])
+    for back_m, aside_m in itertools.product((0.0, 0.5 * step_m, step_m), (-0.09, 0.09)):
+        scene.pose(X_WS @ SE3((-back_m, aside_m, 0.0)) @ standing.X_SB, q)
+        scene.update()
+        assert not scene.touches(links, solids_only=True)
 
 
 def test_the_same_seed_gives_the_same_plan(solver: Solver) -> None:
