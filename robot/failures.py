@@ -111,6 +111,9 @@ CATALOGUE: dict[str, FailureKind] = {
     "place_not_seen": FailureKind(
         "a place could not be looked over", "clear the view of it", spoils="look"
     ),
+    "not_made_out": FailureKind(
+        "something has no name and may be what was asked for", "say what it is", spoils="look"
+    ),
     "on_the_floor": FailureKind(
         "the object lies on the floor, lower than a hand reaches",
         "put it back onto a table",

@@ -48,6 +48,8 @@ _FRUIT = Usual("cylinder", (0.07, 0.07, 0.07), 0.03, 0.22, vary=(0.25, 0.25))
 _CUTLERY = Usual("box", (0.02, 0.18, 0.015), 0.003, 0.36, 0.05, (0.60, 0.50))
 _SMALL = Usual("cylinder", (0.05, 0.05, 0.09), 0.02, 0.16, 0.1, (0.25, 0.30))
 USUAL: dict[str, Usual] = {
+    "egg cup": Usual("cylinder", (0.05, 0.05, 0.065), 0.03, 0.10, 0.06, (0.15, 0.20)),
+    "tea cup": Usual("cylinder", (0.09, 0.09, 0.065), 0.04, 0.14, 0.2, (0.15, 0.20)),
     "cup": _CUP, "mug": _MUG, "tumbler": _CUP, "beaker": _CUP,
     "glass": Usual("cylinder", (0.07, 0.07, 0.12), 0.045, 0.25, vary=(0.18, 0.25)),
     "bottle": _BOTTLE, "thermos": Usual("cylinder", (0.075, 0.075, 0.25), 0.05, 0.36, 0.5,
@@ -87,8 +89,42 @@ USUAL: dict[str, Usual] = {
 """By category; of several words ("blue pill bottle") the last ones say what it is."""
 
 
+SOLD_IN: dict[str, str] = {
+    **dict.fromkeys(("jam", "honey", "marmalade", "mustard", "pesto", "pickles", "salsa"), "jar"),
+    **dict.fromkeys(("milk", "juice", "cream"), "carton"),
+    **dict.fromkeys(("oil", "vinegar", "wine", "water", "ketchup", "syrup", "sauce", "shampoo",
+                     "lotion", "lemonade", "cleaner"), "bottle"),
+    **dict.fromkeys(("cola", "soda", "beer", "beans", "soup", "tuna", "paint"), "can"),
+    **dict.fromkeys(("cereal", "muesli", "rice", "pasta", "flour", "sugar", "tea", "biscuits",
+                     "cookies", "crackers", "tissues", "oats"), "box"),
+    **dict.fromkeys(("pills", "tablets", "vitamins"), "pill bottle"),
+    **dict.fromkeys(("coffee", "cocoa"), "tin"),
+}  # fmt: skip
+"""What people call by what is in it ("get the honey"), and what that is usually in."""
+WIDER = 1.6
+"""How much more a thing differs from what its last word says where the words before it are not
+known: a doll's cup and a loving cup are cups."""
+
+
 def usual(category: str) -> Usual:
     """What things of a category are usually like; `UNKNOWN` where the word says nothing."""
+    words = container(category).split()
+    for first in range(len(words)):
+        known = USUAL.get(" ".join(words[first:]))
+        if known is not None:
+            return known if not first else _wider(known)
+    return UNKNOWN
+
+
+def container(category: str) -> str:
+    """What things of a category are: of what is told by what is in it, what that is in."""
     words = category.replace("_", " ").split()
-    known = (USUAL.get(" ".join(words[first:])) for first in range(len(words)))
-    return next((one for one in known if one is not None), UNKNOWN)
+    kept = SOLD_IN.get(words[-1]) if words else None
+    return kept if kept is not None else " ".join(words)
+
+
+def _wider(one: Usual) -> Usual:
+    wide, high = one.vary
+    return one._replace(
+        least_m=one.least_m / WIDER, most_m=one.most_m * WIDER, vary=(wide * WIDER, high * WIDER)
+    )

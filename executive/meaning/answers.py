@@ -10,6 +10,7 @@ from executive.blackboard import GIVEN, HEARD, HELD, WORLD, Blackboard
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.robot_state import state_of
 from executive.skills.motions.likelihood import surfaces_of
+from executive.skills.motions.look_closer import unclear, unclear_words
 from executive.skills.motions.support import stands_on
 from executive.skills.motions.survey import ENOUGH, Prospect, Survey
 from executive.skills.say import SayParams
@@ -70,7 +71,8 @@ def count(
     def words(board: Blackboard) -> SayParams:
         told = _counted(len(_seen(board, ids, surfaces)), noun, where)
         missed = not_looked_over(board, of, surfaces) if len(surfaces) > 1 else ""
-        return SayParams(text=f"{told} I have not seen all of {missed}." if missed else told)
+        more = f" I have not seen all of {missed}." if missed else ""
+        return SayParams(text=f"{told}{more}{_without_name(board, ids, surfaces, of)}")
 
     return words
 
@@ -86,6 +88,7 @@ def things(
         told = listing([name for id, name in names.items() if id in seen], "and") or "nothing"
         missed = not_looked_over(board, of, surfaces) if len(surfaces) > 1 else ""
         more = f" I have not seen all of {missed}." if missed else ""
+        more += _without_name(board, frozenset(names), surfaces, of)
         return SayParams(text=f"I see {told}{where}.{more}")
 
     return words
@@ -97,9 +100,19 @@ def count_everywhere(ids: frozenset[str], world_map: WorldMap, *, noun: Noun) ->
     def words(board: Blackboard) -> SayParams:
         told = _counted(len(_seen(board, ids, ())), noun)
         missed = not_looked_over(board, world_map)
-        return SayParams(text=f"{told} I have not looked at {missed}." if missed else told)
+        more = f" I have not looked at {missed}." if missed else ""
+        return SayParams(text=f"{told}{more}{_without_name(board, ids, (), world_map)}")
 
     return words
+
+
+def _without_name(
+    board: Blackboard, ids: frozenset[str], places: tuple[Place, ...], world_map: WorldMap
+) -> str:
+    """That something there may be one more of the objects, in a sentence; "" if nothing."""
+    world = board.read(WORLD)
+    things = unclear(world, ids, places) if world is not None else ()
+    return f" I cannot tell what {unclear_words(things, world_map)} is." if things else ""
 
 
 def not_looked_over(

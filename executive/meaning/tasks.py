@@ -277,7 +277,8 @@ def look_of(condition: goals.Condition, scene: Scene) -> tuple[Part, ...]:
         looks, _ = counted(condition.object, scene)
         return looks
     if steps.many(condition.object):  # the first that is seen decides nothing
-        return steps.inspect(name, at, scene)
+        least = len(ids) if condition.object.count == "all" else condition.object.count
+        return steps.inspect(name, at, scene, about=ids, least=least)
     return steps.inspect(name, at, scene, ids=ids) if ids else ()
 
 

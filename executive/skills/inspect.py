@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from executive.skills.forecast import Forecast, Outlook
 from executive.skills.motions.likelihood import surfaces_of
+from executive.skills.motions.look_closer import (
+    MOST_NAMES,
+    look_closer,
+    unclear,
+    unclear_words,
+)
 from executive.skills.motions.look_over import limit_s, look_over
 from executive.skills.motions.script import Script, give_up
 from executive.skills.motions.stow import stow_arms
@@ -16,7 +23,7 @@ from executive.skills.motions.survey import Prospect, Survey
 from executive.skills.parameters import SkillParams
 from executive.skills.scripted import ScriptedSkill
 from executive.skills.skill import Resource
-from robot.messages import Place, Track
+from robot.messages import Place, Track, Unnamed
 
 RECENT_S = 120.0
 """What was seen that long ago is taken to be so still: the length of a short job."""
@@ -33,11 +40,16 @@ THERE_M, THERE = 0.35, 8.0
 class InspectParams(SkillParams, frozen=True, kw_only=True):
     """Look over places (none: what can be seen from here without walking).
 
-    With objects it ends as soon as one of them is seen there, or all are known to be elsewhere.
+    With objects it ends as soon as one of them is seen there, or all are known to be elsewhere. All
+    of the places is looked over for `about_ids`. What has no name and may be one of either is
+    looked at closer; that none of the objects, or fewer than `least` of those that it is about, was
+    seen is not known while such a thing stands there (None: that is nobody's question).
     """
 
     place_ids: tuple[str, ...] = ()
     object_ids: tuple[str, ...] = ()
+    about_ids: tuple[str, ...] = ()
+    least: int | None = None
 
 
 class Inspect(ScriptedSkill[InspectParams]):
@@ -70,11 +82,18 @@ class Inspect(ScriptedSkill[InspectParams]):
         self._since_s = body.now_s - RECENT_S
         survey = self._survey()
         survey.take(body.world.looked)
-        if self._is_known() or not len(survey.left):
-            return
-        yield from stow_arms(body)
+        asked = (*self.parameters.object_ids, *self.parameters.about_ids)
         stay = not self.parameters.place_ids
-        if (yield from look_over(body, survey, self._is_known, stay=stay)) or stay:
+        if self._is_known():
+            return
+        if len(survey.left) or unclear(body.world, asked, survey.places):
+            yield from stow_arms(body)
+        if (yield from look_over(body, survey, self._is_known, stay=stay)):
+            return
+        if not stay and (yield from look_closer(body, asked, survey.places, self._is_known)):
+            return
+        self._check_made_out(survey.places)
+        if stay:
             return
         for place in survey.places:
             if self._may_hide(survey, place):
@@ -82,6 +101,24 @@ class Inspect(ScriptedSkill[InspectParams]):
                 if self._stays_hidden(survey, place):
                     told["looked"] = FROM_ALL_SIDES
                 raise give_up("place_not_seen", _unseen_words(survey, place), **told)
+
+    def _check_made_out(self, places: Sequence[Place]) -> None:
+        """Give up when what was asked may be there and have no name."""
+        body, wanted = self.body, self.parameters
+        ids = wanted.object_ids
+        if not ids and wanted.least is not None and self._count(places) < wanted.least:
+            ids = wanted.about_ids
+        things = unclear(body.world, ids, places)
+        if things:
+            names = " or ".join(body.object_info(id).full_name for id in _may_be(things, ids))
+            cause = f"cannot tell whether {unclear_words(things, body.map)} is {names}"
+            raise give_up("not_made_out", cause, things=len(things))
+
+    def _count(self, places: Sequence[Place]) -> int:
+        """How many of those that it is about are believed to stand there."""
+        ids = self.parameters.about_ids
+        tracks = [track for track in self.body.world.tracks if track.id in ids]
+        return sum(self._is_there(track, places) for track in tracks if not track.missing)
 
     def _survey(self) -> Survey:
         body, wanted = self.body, self.parameters
@@ -123,19 +160,24 @@ class Inspect(ScriptedSkill[InspectParams]):
         tracks = self._tracks()
         if not tracks:
             return False
-        if any(self._is_there(track) for track in tracks if self._is_fresh(track)):
+        places = [self.body.place(place_id) for place_id in self.parameters.place_ids]
+        if any(self._is_there(track, places) for track in tracks if self._is_fresh(track)):
             return True
         return bool(self.parameters.place_ids) and all(map(self._is_fresh, tracks))
 
     def _is_fresh(self, track: Track) -> bool:
         return track.held_by is not None or (track.seen_s >= self._since_s and not track.missing)
 
-    def _is_there(self, track: Track) -> bool:
-        places = [self.body.place(place_id) for place_id in self.parameters.place_ids]
+    def _is_there(self, track: Track, places: Sequence[Place]) -> bool:
         X_WO = track.X_WO
         if X_WO is None or track.held_by is not None:
             return False
         return not places or any(stands_on(X_WO, place) for place in places)
+
+
+def _may_be(things: Sequence[Unnamed], ids: Sequence[str]) -> list[str]:
+    """Which of some objects things may be, the likeliest first."""
+    return list(dict.fromkeys(id for one in things for id in one.may_be if id in ids))[:MOST_NAMES]
 
 
 def _unseen_words(survey: Survey, place: Place) -> str:

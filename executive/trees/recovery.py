@@ -88,6 +88,7 @@ RULES: dict[str, Rule] = {
     "object_dropped": _first(fetch_again=2, ask=1),
     "object_not_seen": _first(look_again=1, ask=1),
     "place_not_seen": _first(wait=1, ask=1),
+    "not_made_out": _first(ask=1),
     "on_the_floor": _first(ask=1),
     "not_taken": _first(ask=1),
     "no_answer": NONE,  # they were asked twice

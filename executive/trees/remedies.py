@@ -107,6 +107,7 @@ HELP: dict[str, str] = {
     "object_dropped": _SHOW,
     "object_not_seen": _SHOW,
     "place_not_seen": "please clear the way to {it} and the view of it",
+    "not_made_out": "please turn it so that I can see what it is, or take it away",
     "on_the_floor": _SHOW,
     "place_missed": _SHOW,
     "arm_stalled": "please clear the way of my arm",

@@ -158,6 +158,8 @@ class Unnamed(msgspec.Struct, frozen=True, kw_only=True):
     """A thing that own eyes see standing somewhere and that they know no name for.
 
     `words` say what it looks like ("green thing of 9 cm"); `X_WO` is upright, of its middle.
+    `may_be` are the ids of told things that it may well be, the likeliest first. `near` is unset as
+    long as it was not seen from near by: then its form and its place are a guess.
     """
 
     id: str
@@ -165,6 +167,8 @@ class Unnamed(msgspec.Struct, frozen=True, kw_only=True):
     X_WO: SE3
     shape: Shape
     seen_s: float
+    may_be: tuple[str, ...] = ()
+    near: bool = True
 
 
 class WorldState(Message, frozen=True, kw_only=True):

@@ -137,11 +137,12 @@ def _tell_what_is_there(query: goals.ObjectQuery, goal: goals.Tell, scene: Scene
         raise cannot("unsupported", "this robot cannot find that out yet",
                      suggestion="ask what is on a piece of furniture, or in a room")  # fmt: skip
     places = to_look_over(scene.places(query.at or ""), scene)
-    looks = inspect(f"look over the {query.at}", query.at, scene)
+    fitting = scene.fitting(replace(query, count="all"))
+    ids = [info.id for info in fitting]
+    looks = inspect(f"look over the {query.at}", query.at, scene, about=ids)
     if len(places) > 1:  # what is higher than the eyes hides nothing of the rest
         looks = tuple(tolerant(look, ["place_not_seen"]) for look in looks)
     where = _where(query, scene)
-    fitting = scene.fitting(replace(query, count="all"))
     said = answers.things(fitting, places, where=f" {where}", of=scene.knowledge.map)
     told = to_their_face(goal.to, scene)
     name = f"tell what is {where}"
@@ -166,7 +167,7 @@ def count(goal: goals.Count, scene: Scene) -> Part:
     else:
         ids = frozenset(info.id for info in scene.fitting(replace(query, count="all")))
         places = to_look_over(scene.places(query.at), scene)
-        looks = inspect(f"look over the {query.at}", query.at, scene)
+        looks = inspect(f"look over the {query.at}", query.at, scene, about=ids)
         if len(places) > 1:  # what is higher than the eyes hides nothing of the rest
             looks = tuple(tolerant(look, ["place_not_seen"]) for look in looks)
         tell = answers.count(

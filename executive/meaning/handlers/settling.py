@@ -16,10 +16,12 @@ from executive.meaning.identify import CannotMean, Scene
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.robot_state import state_of
 from executive.meaning.viewpoint import facing
+from executive.skills.inspect import InspectParams
 from executive.skills.look import LookParams
+from executive.skills.motions.look_closer import unclear, unclear_words
 from executive.skills.motions.support import stands_on
 from executive.skills.navigate import NavigateParams
-from executive.trees.parts import Errand, GiveUp, Part, Series, Settle
+from executive.trees.parts import Branch, Errand, GiveUp, Part, Series, Settle
 from intents import goals, relations
 from intents.english.trouble import listing
 from intents.grounding import (
@@ -33,7 +35,7 @@ from intents.grounding import (
 )
 from intents.relations import Viewpoint
 from robot.failures import Failure, failure
-from robot.messages import ObjectInfo, Place
+from robot.messages import ObjectInfo, Place, Unnamed
 from robot.se3 import SE3
 
 BESIDE_M = 1.2
@@ -67,16 +69,20 @@ def settle(query: goals.ObjectQuery, scene: Scene, rest: Continue) -> Settle:
 
     def then(ids: tuple[str, ...]) -> Part:
         try:
-            return Series(name=describe(query), parts=rest(begin.knowing(query, ids)))
+            parts = rest(begin.knowing(query, ids))
+            if query.count == "all" and query.at:
+                parts = (*parts, question.nothing_else())
+            return Series(name=describe(query), parts=parts)
         except CannotMean as end:
             name = f"do it with the {describe(query)}"
             return GiveUp(name=name, cause=end.failure.cause, code=end.failure.code)
 
+    question = _Question(query, frozenset(alike), scene)
     alone = query.count in (None, 1) and query.relation is None and query.superlative is None
     return Settle(
         name=f"which {describe(query)}",
         looks=tuple(_looks(query, scene)),
-        question=_Question(query, frozenset(alike), scene),
+        question=question,
         then=then,
         likely=likely,
         thorough=not alone,
@@ -160,7 +166,8 @@ def _looks(query: goals.ObjectQuery, scene: Scene) -> list[Part]:
     looks: list[Part] = []
     if query.at is not None:
         named = to_look_over(places_at(query.at, scene), scene)
-        looks += [tolerant(visit(place)) for place in named]
+        alike = [info.id for info in scene.fitting(query)]
+        looks += [tolerant(visit(place, about=alike)) for place in named]
     if query.relation is not None and not looks:
         ends = (query.relation.of, query.relation.other)
         for end in (end for end in ends if end is not None):
@@ -259,7 +266,7 @@ class _Question:
         if isinstance(found, Ambiguous):
             found = self._nearest(found, here) or found
         if isinstance(found, Unknown):
-            return self._not_seen(seen)
+            return self._not_seen(seen, board)
         if isinstance(found, Ambiguous):
             many = isinstance(query.count, int) and query.count > len(found.candidates)
             if many:
@@ -270,6 +277,27 @@ class _Question:
         if isinstance(query.count, int) and query.count > len(found.ids):
             return failure("object_not_seen", f"saw only {len(found.ids)} of {query.count}")
         return found.ids
+
+    def nothing_else(self) -> Branch:
+        """See to it that nothing is left there that may be meant and has no name."""
+        where = _on(self._query.at or "", self._knowledge)
+        look = InspectParams(
+            place_ids=tuple(place.id for place in self._surfaces),
+            about_ids=tuple(sorted(self._alike)),
+            least=len(self._alike),
+        )
+        return Branch(
+            name=f"is anything left {where} without a name",
+            question=lambda board: bool(self._unclear(board)),
+            then=Errand(name=f"look what is left {where}", params=look),
+            otherwise=Series(name="go on", parts=()),
+        )
+
+    def _unclear(self, board: Blackboard) -> tuple[Unnamed, ...]:
+        """What may be meant, and has no name."""
+        world = board.read(WORLD)
+        places = self._surfaces if self._query.at else ()
+        return () if world is None else unclear(world, self._alike, places)
 
     def _is_there(self, entity: Entity) -> bool:
         """Whether it stands where the description says."""
@@ -338,7 +366,13 @@ class _Question:
         clear = len(away) == 1 or away[0][0] < CLEARLY_NEARER * away[1][0]
         return Grounded(away[0][1], (away[0][1],)) if clear else None
 
-    def _not_seen(self, seen: Sequence[Entity]) -> Failure:
+    def _not_seen(self, seen: Sequence[Entity], board: Blackboard) -> Failure:
+        things = self._unclear(board)
+        if things:
+            words = unclear_words(things, self._knowledge.map)
+            what = f"is {describe(replace(self._query, at=None))}" if self._query.name else "is"
+            which = "whether" if self._query.name else "what"
+            return failure("not_made_out", f"cannot tell {which} {words} {what}")
         if self._query.at and not (self._query.relation or self._query.superlative):
             text = nothing_there(self._query, self._knowledge)
             away = [one for one in seen if self._is_away(one)]

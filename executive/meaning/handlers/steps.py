@@ -54,14 +54,26 @@ def to_look_over(places: Iterable[Place], scene: Scene) -> tuple[Place, ...]:
 
 
 def inspect(
-    name: str, at: str | None, scene: Scene, *, ids: Iterable[str] = ()
+    name: str,
+    at: str | None,
+    scene: Scene,
+    *,
+    ids: Iterable[str] = (),
+    about: Iterable[str] = (),
+    least: int | None = None,
 ) -> tuple[Errand, ...]:
-    """Look over the place that was said, or what is in view from here if none was."""
+    """Look over the place that was said, or what is in view from here if none was.
+
+    `ids`, `about` and `least` as of `InspectParams`.
+    """
     places = to_look_over(scene.places(at), scene) if at else ()
     if at and not places:
         return ()
     params = InspectParams(
-        place_ids=tuple(place.id for place in places), object_ids=tuple(sorted(ids))
+        place_ids=tuple(place.id for place in places),
+        object_ids=tuple(sorted(ids)),
+        about_ids=tuple(sorted(about)),
+        least=least,
     )
     return (Errand(name=name, params=params, object_name=f"the {at}" if at else ""),)
 
@@ -82,9 +94,9 @@ def surfaces(places: tuple[Place, ...]) -> tuple[Place, ...]:
     return tuple(place for place in places if not place.floor)
 
 
-def visit(place: Place) -> Errand:
-    """Go to a surface and look over it."""
-    params = InspectParams(place_ids=(place.id,))
+def visit(place: Place, *, about: Iterable[str] = ()) -> Errand:
+    """Go to a surface and look over it, closer at what may be one of some things."""
+    params = InspectParams(place_ids=(place.id,), about_ids=tuple(sorted(about)))
     return Errand(name=f"look over the {place.name}", params=params)
 
 

@@ -110,13 +110,20 @@ def _look_over(body: Body, survey: Survey, until: Until, *, stay: bool) -> Scrip
         survey.tried(rows, plan.stance[:2])
 
 
-def walk_to_see(body: Body, p_W: Vector3, until: Until) -> Script[bool]:
+def walk_to_see(
+    body: Body, p_W: Vector3, until: Until, *, vain_m: tuple[float, float] | None = None
+) -> Script[bool]:
     """Walk to where a point can be seen from; whether there is such a place and a way to it.
 
-    The robot stands then, unless something is so before: it looks there whenever it can.
+    The robot stands then, unless something is so before: it looks there whenever it can. From
+    `vain_m` on the floor it was looked at in vain: it is seen from elsewhere, nearer if it can be.
     """
     request = LookRequest(
-        start=stance_of(body.X_WS), points_W=(p_W,), worth=(1.0,), around=surroundings(body)
+        start=stance_of(body.X_WS),
+        points_W=(p_W,),
+        worth=(1.0,),
+        around=surroundings(body),
+        vain_m={} if vain_m is None else {0: vain_m},
     )
     plan = yield from ask_view_past_people(body, request)
     if plan.stance is None:

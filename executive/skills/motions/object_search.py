@@ -8,9 +8,10 @@ from collections.abc import Sequence
 from executive.skills.motions.body_access import Body
 from executive.skills.motions.gaze import SIGHTINGS, fresh_track, see
 from executive.skills.motions.likelihood import prospects
+from executive.skills.motions.look_closer import look_closer, unclear, unclear_words
 from executive.skills.motions.look_over import look_over, walk_to_see
 from executive.skills.motions.script import GaveUp, Script, give_up
-from executive.skills.motions.support import pose_on_support, surface_under
+from executive.skills.motions.support import pose_on_support
 from executive.skills.motions.survey import Survey
 from robot.messages import Track
 from robot.se3 import SE3
@@ -19,7 +20,6 @@ SIGHT_M = 3.0
 """From as near as this it is tried from here first whether an object is where it was."""
 IN_VIEW_S = 2.0
 """What was seen that lately need not be looked for again."""
-MOST_UNNAMED = 3
 FRESH_S = 600.0
 """What was looked over longer ago may hold something else by now."""
 GLIMPSED_S = 0.8
@@ -53,13 +53,24 @@ def find(
         X_WO = shows.X_WO() if shows.enough else (yield from _make_sure(body, object_id))
         if X_WO is not None:
             return X_WO
+    X_WO = yield from _look_closer(body, object_id)
+    if X_WO is not None:
+        return X_WO
     body.context.searched_s[object_id] = body.now_s
     raise give_up(
         "object_not_seen",
-        f"did not find the {name}; {survey.words()}{_without_name(body)}",
+        f"did not find the {name}; {survey.words()}{_without_name(body, object_id)}",
         object=object_id,
         looked="everywhere",
     )
+
+
+def _look_closer(body: Body, object_id: str) -> Script[SE3 | None]:
+    """Look closer at what may be an object and has no name, until it shows."""
+    shows = _Sightings(body, object_id)
+    if not (yield from look_closer(body, (object_id,), (), shows)):
+        return None
+    return shows.X_WO() if shows.enough else (yield from _make_sure(body, object_id))
 
 
 def _look_further(body: Body, survey: Survey, object_id: str) -> Script[_Sightings]:
@@ -69,14 +80,11 @@ def _look_further(body: Body, survey: Survey, object_id: str) -> Script[_Sightin
     return shows
 
 
-def _without_name(body: Body) -> str:
-    """What it has seen and cannot name, which may be what it looked for: "; saw a ..."."""
-    seen = [
-        f"a {one.words} on the {place.name}"
-        for one in body.world.unnamed
-        if (place := surface_under(one.X_WO, body.map.places)) is not None
-    ]
-    return f"; has no name for {' and '.join(seen[:MOST_UNNAMED])}" if seen else ""
+def _without_name(body: Body, object_id: str) -> str:
+    """What it cannot name and may be what it looked for, else what it cannot name at all."""
+    seen = unclear(body.world, (object_id,)) or tuple(one for one in body.world.unnamed if one.near)
+    words = unclear_words(seen, body.map)
+    return f"; has no name for {words}" if words else ""
 
 
 def _survey(body: Body, object_id: str, place_ids: Sequence[str]) -> Survey:

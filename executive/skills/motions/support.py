@@ -26,8 +26,6 @@ FROM_AFAR_M = 0.12
 """A camera that is taken to be level when it nods by 1.5 degrees (an IMU that sits askew, in the
 reality `harsh`) sees what is 3 m away 0.08 m too low, and this much from 4.5 m. Nothing else is
 there within that height, so it is taken to be on what is over it."""
-IN_HAND_M = 0.15
-"""What is so near to a thing in a hand is that, seen between fingers."""
 TOUCHING_M = 0.01
 """Two things as near as this are taken to touch: where they stand is known that well."""
 
@@ -151,15 +149,8 @@ def surroundings(body: Body, *ignored: str, unnamed: bool = False) -> Surroundin
 
 
 def _unnamed(body: Body) -> tuple[Unnamed, ...]:
-    """What has no name and is not just where the thing in a hand seems to be."""
-    held = [one.object_id for one in body.context.holdings.all()]
-    tracks = [track for name in held if (track := body.track(name)) is not None]
-    at = [track.X_WO.p for track in tracks if track.X_WO is not None]
-    return tuple(
-        one
-        for one in body.world.unnamed
-        if all(math.dist(one.X_WO.p, p_W) > IN_HAND_M for p_W in at)
-    )
+    """What has no name, as far as it was seen from near by."""
+    return tuple(one for one in body.world.unnamed if one.near)
 
 
 def occupant(body: Body, info: ObjectInfo, X_WO: SE3) -> ObjectInfo | None:

@@ -9,15 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from robot.perception.sight.recognising import SETTLED
 from robot.perception.sight.tracking import Seen
 from robot.perception.things.eyes import SeenThing
 from robot.se3 import Vector3
 
 WELL_ENOUGH = 3
 """Looks from near by at a whole thing: in homes names that come at all have come by then."""
-CLEAR = 2.0
-"""A name that is so much likelier than any other holds from afar, too. A green box was "the green
-mug" from 2.5 m by 1.1, and was not looked at again."""
 
 
 def doubtful(
@@ -33,7 +31,7 @@ def doubtful(
     open_ = (
         one.p_W
         for one in tracks
-        if one.near_looks < WELL_ENOUGH and clear.get(one.number, 0.0) < CLEAR
+        if one.near_looks < WELL_ENOUGH and clear.get(one.number, 0.0) < SETTLED
     )
     return tuple(
         (float(x), float(y), float(z)) for x, y, z in (*open_, *(one.p_W for one in cut_off))

@@ -13,7 +13,7 @@ from robot.messages import ObjectInfo
 from robot.perception.sight.tracking import Seen
 from robot.perception.things.naming import NOTHING, UNKNOWN, Classes, Sure
 from robot.usual_things import UNKNOWN as UNKNOWN_THING
-from robot.usual_things import usual
+from robot.usual_things import container, usual
 
 PLAIN = 0.5
 """What is of no kind at all may be a plain form of any: a cup without a handle."""
@@ -98,22 +98,32 @@ def likeness(track: Seen, info: ObjectInfo, plural: str, namer: Knowledge) -> fl
 
 
 def kinds_of(category: str, plural: str, classes: Classes) -> frozenset[int]:
-    """Which classes of the namer a category is: one of that name, a family, or none."""
+    """Which classes of the namer a category is: one of that name, a family, or none.
+
+    A carton is every carton that it knows, and what is told by its contents ("jam") is what has
+    that word, or is what such things are usually in.
+    """
     own = category.replace(" ", "_")
     if own in classes.names:
         return frozenset({classes.names.index(own)})
     words = plural.split()
     family = plural if plural in classes.families else words[-1] if words else ""
-    return frozenset(
+    found = {
         k
         for k, name in enumerate(classes.families)
         if name == family and classes.names[k] not in (UNKNOWN, NOTHING)
-    )
+    }
+    if not found:
+        asked = {word.split()[-1] for word in (category, container(category)) if word}
+        found = {k for k, name in enumerate(classes.names) if asked & set(name.split("_"))}
+    return frozenset(found)
 
 
 def _kind(track: Seen, category: str, plural: str, namer: Knowledge) -> float:
     classes = namer.classes
     mine = kinds_of(category, plural, classes)
+    if not mine and usual(category) is UNKNOWN_THING:
+        return 0.0  # a word that eyes have no idea of
     chances = track.chances
     plain = float(chances[classes.names.index(UNKNOWN)])
     fits = sum(float(chances[k]) for k in mine) + PLAIN * plain

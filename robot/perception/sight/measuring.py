@@ -65,6 +65,7 @@ class Measured(NamedTuple):
         foot_m: height of what it stands on.
         is_whole: whether nothing hides a part of it, and it was found whole.
         roundness: how much likelier it is round than a box, in logarithms.
+        is_at_hand: whether it may be a piece of what a hand holds.
     """
 
     seen: SeenThing
@@ -77,6 +78,7 @@ class Measured(NamedTuple):
     foot_m: float
     is_whole: bool
     roundness: float = 0.0
+    is_at_hand: bool = False
 
 
 def measured(

@@ -33,6 +33,9 @@ NAMED = 0.2
 """What one more name takes: a thing that was told may well be somewhere else."""
 HARDLY = 0.01
 """What a name is worth where it is, as long as nothing better comes and it is not taken away."""
+SETTLED = 2.0
+"""What has a name that is so much likelier than any other is no other thing, seen from afar, too. A
+green box was "the green mug" from 2.5 m by 1.1."""
 NO_WAY = -50.0
 
 
@@ -42,6 +45,7 @@ class Recogniser:
     Attributes:
         clear: of the names that were given last, by id, how much likelier it is so than any way of
             naming in which their thing is another told one or none, in logarithms.
+        may_be: ids of what things without a name may well be, by track, the likeliest first.
         mistaken: names that have lost their thing when names were given last, as it has another
             name now, or another colour; with what it is, in a word or two.
     """
@@ -54,6 +58,7 @@ class Recogniser:
         self._places: tuple[Place, ...] = ()
         self._number: dict[str, int] = {}
         self.clear: dict[str, float] = {}
+        self.may_be: dict[int, tuple[str, ...]] = {}
         self.mistaken: dict[str, str] = {}
 
     def tell(
@@ -73,7 +78,7 @@ class Recogniser:
         """Give names to tracks, or leave them; every named one by its id."""
         there = {track.number for track in tracks}
         self._number = {id: number for id, number in self._number.items() if number in there}
-        self.clear, self.mistaken = {}, {}
+        self.clear, self.may_be, self.mistaken = {}, {}, {}
         if not tracks or not self._told:
             return {}
         fits = np.array(
@@ -92,8 +97,25 @@ class Recogniser:
                 found[info.id] = tracks[column]
                 self.clear[info.id] = self._else(fits, row, column)
         before, self._number = self._number, {id: track.number for id, track in found.items()}
+        self.may_be = self._open(fits, tracks)
         self.mistaken = self._mistaken(before, {track.number: track for track in tracks})
         return found
+
+    def _open(self, fits: np.ndarray, tracks: Sequence[Seen]) -> dict[int, tuple[str, ...]]:
+        """What things without a name may be: told things that are surely nowhere else."""
+        least, named = self._least(), set(self._number.values())
+        rows = [
+            row for row, info in enumerate(self._told) if self.clear.get(info.id, 0.0) < SETTLED
+        ]
+        return {
+            track.number: tuple(
+                self._told[row].id
+                for row in sorted(rows, key=lambda row: -fits[row, column])
+                if fits[row, column] > least[row]
+            )
+            for column, track in enumerate(tracks)
+            if track.number not in named
+        }
 
     def _mistaken(self, before: Mapping[str, int], tracks: Mapping[int, Seen]) -> dict[str, str]:
         """What names had taken for their thing, and is another one, with what that is."""

@@ -20,6 +20,7 @@ from robot.messages import (
     Unnamed,
     WorldMap,
 )
+from robot.perception.sight.at_hand import apart_from_hands
 from robot.perception.sight.doubt import doubtful
 from robot.perception.sight.likeness import Knowledge
 from robot.perception.sight.measuring import Measured, is_cut_off, measured
@@ -28,7 +29,7 @@ from robot.perception.sight.tracking import Seen, Tracks
 from robot.perception.sight.unnamed import unnamed
 from robot.perception.things.eyes import Eyes, SeenThing
 from robot.perception.things.inputs import Sight, sight
-from robot.se3 import SE3, Array, Vector3
+from robot.se3 import SE3, Vector3
 from robot.usual_things import usual
 
 FAR_M = 3.4
@@ -36,8 +37,6 @@ FAR_M = 3.4
 SAME_SHARE, SAME_M = 0.6, 0.02
 """Two parts of one thing: alike in colour and nearer than that share of the larger one's width, or
 nearer than two things can be."""
-AT_HAND_M = 0.13
-"""What is so near to a hand that holds something is that."""
 IN_HAND_M = 0.07
 """What is so near to where a held thing should be is that."""
 RESIZED_M = 0.003
@@ -118,7 +117,7 @@ class Seer:
             X_WC: where the camera was.
             own: pixels that show the robot.
             held: where the things in its hands are, by id.
-            hands_W: where the hands are that hold something.
+            hands_W: where what the hands hold is [m], in W.
         """
         view = sight(image, X_WC)
         nothing = Sightings(stamp_s=image.stamp_s, objects=(), source="sensor")
@@ -129,7 +128,7 @@ class Seer:
             thing for thing in self._eyes.look(image, view.X_WC, but=own) if thing.range_m < FAR_M
         ]
         self._look_at_hands(looked, held)
-        found = [one for one in self._found(looked, view, own) if not _is_at(one.p_W, hands_W)]
+        found = apart_from_hands(self._found(looked, view, own), hands_W)
         seen = self._tracks.add(found, image.stamp_s)
         before = {track.number: id for id, track in self._named.items()}
         gone = self._tracks.miss(_without(view, own), seen, image.stamp_s)
@@ -153,7 +152,7 @@ class Seer:
             mistaken,
             tuple((track, names.get(track.number, "")) for track in seen),
             self._doubts(looked),
-            unnamed(self._tracks.things, names, hands_W),
+            unnamed(self._tracks.things, names, self._recogniser.may_be),
         )
 
     def _doubts(self, looked: Sequence[SeenThing]) -> tuple[Vector3, ...]:
@@ -237,10 +236,6 @@ def _are_one(larger: Measured, other: Measured) -> bool:
     width_m = max(*larger.size_m[:2], *other.size_m[:2])
     alike = bool(set(larger.seen.colours) & set(other.seen.colours))
     return apart_m < SAME_M or (alike and apart_m < SAME_SHARE * width_m)
-
-
-def _is_at(p_W: Array, hands_W: Sequence[Vector3]) -> bool:
-    return any(float(np.linalg.norm(p_W - np.array(hand))) < AT_HAND_M for hand in hands_W)
 
 
 def _without(view: Sight, own: NDArray[np.bool_]) -> Sight:

@@ -51,7 +51,9 @@ class Seen:
         size_m, size_sigma_m: its sides, its height, and its width across the line of sight.
         seen_s: when it was seen last.
         looks: how often.
-        near_looks: how often from so near that its form can be told, with nothing before it.
+        free_looks: how often away from hands that hold something.
+        near_looks: how often from so near that its form can be told, with nothing before it, and
+            not at a hand that holds something.
         colour_looks: how often its colours were, in a hand too.
     """
 
@@ -64,6 +66,7 @@ class Seen:
     seen_s: float
     looks: int = 0
     near_looks: int = 0
+    free_looks: int = 0
     misses: int = 0
     colour_looks: int = 0
     _logs: Array = field(default_factory=lambda: np.zeros(0))
@@ -94,7 +97,9 @@ class Seen:
         self.size_m = self.size_m + share * (_sizes(found) - self.size_m)
         self.size_sigma_m = math.sqrt((1.0 - share) * mine)
         self.looks, self.misses = self.looks + 1, 0
-        self.near_looks += found.is_whole and found.seen.range_m < FORM_M
+        near = found.seen.range_m < FORM_M and not found.is_at_hand
+        self.near_looks += near and found.is_whole
+        self.free_looks += not found.is_at_hand
         self.seen_s, self.last = now_s, found
 
     def _vote(self, found: Measured) -> None:

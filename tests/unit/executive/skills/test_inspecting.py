@@ -7,12 +7,13 @@ from msgspec.structs import replace
 
 from executive.behaviours.run_skill import DEFAULT_LIMIT_S
 from executive.skills.inspect import RECENT_S, InspectParams
+from executive.skills.motions.look_closer import SIDES
 from executive.skills.motions.look_over import VIEW_M
 from executive.skills.motions.object_search import GLIMPSED_S
 from executive.skills.pick import PickParams
 from executive.skills.search import SearchParams
 from executive.skills.skill import Lasting
-from robot.messages import Look, Stand, Walk
+from robot.messages import Look, Shape, Stand, Unnamed, Walk
 from robot.planning.requests import BasePathRequest, LookPlan, LookRequest
 from robot.se3 import SE3
 from tests.fakes.stage import Stage
@@ -210,3 +211,60 @@ def test_the_feet_stop_for_what_showed_once(stage):
     assert stage.run(SearchParams(object_id="cup")).status == "succeeded"
     assert stage.puppet.time_s > 5.0 + GLIMPSED_S
     assert stage.puppet.mode == "stand"
+
+
+def nameless(*may_be: str, near: bool = True) -> Unnamed:
+    shape = Shape(kind="cylinder", size_m=(0.08, 0.08, 0.1))
+    return Unnamed(id="unnamed_3", words="white thing of 10 cm", X_WO=ON_COUNTER, shape=shape,
+                   seen_s=0.0, may_be=may_be, near=near)  # fmt: skip
+
+
+@pytest.mark.parametrize("near", [True, False])
+def test_what_has_no_name_and_may_be_the_thing_is_not_taken_for_absent(stage, near):
+    stage.puppet.unnamed = (nameless("cup", near=near),)
+    asked = InspectParams(place_ids=("counter",), object_ids=("cup",))
+    report = stage.run(asked)
+    assert report.failure.code == "not_made_out"
+    assert "white thing of 10 cm on the counter is the" in report.failure.cause
+    looks = [r for r in stage.planner.requests if isinstance(r, LookRequest) and r.vain_m]
+    assert [r.points_W for r in looks] == [(ON_COUNTER.p,)] * SIDES
+
+
+def test_it_is_looked_at_closer_though_the_place_was_looked_over_just_now(stage):
+    stage.run(InspectParams(place_ids=("counter",)))
+    stage.puppet.unnamed = (nameless("cup"),)
+    asked = InspectParams(place_ids=("counter",), object_ids=("cup",))
+    assert stage.run(asked).failure.code == "not_made_out"
+
+
+def test_what_stands_elsewhere_or_is_something_else_makes_no_doubt(stage):
+    asked = InspectParams(place_ids=("table",), object_ids=("cup",))
+    stage.puppet.unnamed = (nameless("cup"),)
+    assert stage.run(asked).status == "succeeded"
+    stage.puppet.unnamed = (nameless("plate"),)
+    asked = InspectParams(place_ids=("counter",), object_ids=("cup",))
+    assert stage.run(asked).status == "succeeded"
+
+
+@pytest.mark.parametrize(("least", "code"), [(None, ""), (1, "not_made_out"), (0, "")])
+def test_who_counts_says_it_and_who_asks_for_so_many_does_not_know(stage, least, code):
+    stage.puppet.unnamed = (nameless("cup"),)
+    asked = InspectParams(place_ids=("counter",), about_ids=("cup",), least=least)
+    report = stage.run(asked)
+    assert (report.failure.code if report.failure else "") == code
+
+
+def test_the_search_ends_at_what_is_made_out_from_near_by(stage, monkeypatch):
+    puppet, tick = stage.puppet, stage.puppet.tick
+    cup = puppet.things["cup"]
+    cup.X_WO, puppet.blind = ON_COUNTER, True
+    puppet.unnamed = (nameless("cup"),)
+
+    def made_out() -> None:
+        tick()
+        if stage.skill.body.phase.startswith("looking closer"):
+            puppet.blind, puppet.unnamed = False, ()
+
+    monkeypatch.setattr(puppet, "tick", made_out)
+    report = stage.run(SearchParams(object_id="cup"))
+    assert report.status == "succeeded", report

@@ -294,15 +294,18 @@ def test_what_has_come_to_stand_there_and_has_no_name_is_seen_before_the_hand_is
     assert stage.puppet.things["cup"].X_WO.p[1] == pytest.approx(2.2, abs=0.03)
 
 
-def test_what_seems_to_be_in_the_hand_without_a_name_is_what_it_holds(stage):
+def test_what_was_glimpsed_from_afar_takes_no_room(stage):
     stage.run(ON_COUNTER, until_phase="stepping up")
     cup = stage.puppet.things["cup"]
-    stage.puppet.unnamed = (
-        Unnamed(id="unnamed_4", words="red thing of 10 cm", X_WO=cup.X_WO, seen_s=0.0,
-                shape=stage.puppet.world_map.objects[0].shape),
+    glimpsed = Unnamed(
+        id="unnamed_4", words="red thing of 10 cm", X_WO=cup.X_WO, seen_s=0.0, near=False,
+        shape=stage.puppet.world_map.objects[0].shape,
     )  # fmt: skip
-    asked = occupant(stage.skill.body, stage.puppet.world_map.objects[0], cup.X_WO)
-    assert asked is None
+    info = stage.puppet.world_map.objects[0]
+    stage.puppet.unnamed = (glimpsed,)
+    assert occupant(stage.skill.body, info, cup.X_WO) is None
+    stage.puppet.unnamed = (replace(glimpsed, near=True),)
+    assert occupant(stage.skill.body, info, cup.X_WO) is not None
 
 
 def test_what_stands_beside_it_is_no_matter(stage):

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from robot.messages import ObjectInfo, Place, RgbdImage, Shape, WorldMap
-from robot.perception.sight.doubt import CLEAR, WELL_ENOUGH, doubtful
+from robot.perception.sight.at_hand import apart_from_hands
+from robot.perception.sight.doubt import WELL_ENOUGH, doubtful
+from robot.perception.sight.recognising import SETTLED
 from robot.perception.sight.seer import Seer
 from robot.perception.sight.tracking import Tracks
 from robot.perception.sight.unnamed import unnamed
@@ -33,8 +35,8 @@ def test_a_thing_without_a_name_is_in_doubt_until_it_was_seen_from_near_by():
 
 def test_a_name_settles_it_where_no_other_told_thing_might_have_it_as_well():
     far = seen_from(1.8, looks=3).things
-    assert not doubtful(far, {1: CLEAR}, ())
-    assert doubtful(far, {1: 0.5 * CLEAR}, ())
+    assert not doubtful(far, {1: SETTLED}, ())
+    assert doubtful(far, {1: 0.5 * SETTLED}, ())
 
 
 def test_what_goes_on_beyond_the_border_is_in_doubt_in_that_picture():
@@ -95,12 +97,25 @@ def test_what_has_no_name_is_told_as_it_looks_but_no_part_of_a_named_thing_is():
     for k in range(3):
         tracks.add([alone, named, part], 0.2 * k)
     assert len(tracks.things) == 3
-    (one,) = unnamed(tracks.things, {2: "red_cup"}, ())
-    assert one.words == "green thing of 10 cm"
+    (one,) = unnamed(tracks.things, {2: "red_cup"}, {1: ("pear",)})
+    assert one.words == "green thing of 10 cm" and one.may_be == ("pear",)
     assert one.X_WO.p == pytest.approx((1.0, 0.5, 0.76), abs=0.01)
-    assert not unnamed(tracks.things, {2: "red_cup"}, [(1.0, 0.45, 0.8)])
 
 
-def test_a_glimpse_from_afar_is_nothing_yet():
-    assert not unnamed(seen_from(1.8, looks=9).things, {}, ())
-    assert not unnamed(seen_from(0.8, looks=1).things, {}, ())
+def test_what_was_only_seen_at_a_hand_that_holds_something_is_a_piece_of_that():
+    held_W, near_W = (1.0, 0.35, 0.8), (1.0, 0.5, 0.76)
+    pieces, stood = Tracks(), Tracks()
+    for k in range(3):
+        stood.add(apart_from_hands([measured(near_W)], ()), 0.2 * k)
+    for k in range(6):
+        pieces.add(apart_from_hands([measured(near_W), measured(held_W)], (held_W,)), 0.2 * k)
+        stood.add(apart_from_hands([measured(near_W)], (held_W,)), 0.6 + 0.2 * k)
+    assert not unnamed(pieces.things, {}, {})
+    (there,) = unnamed(stood.things, {}, {})  # what a cup comes to stand on, if nobody looks
+    assert there.near and there.X_WO.p == pytest.approx(near_W, abs=0.01)
+
+
+def test_a_glimpse_from_afar_is_not_near_and_one_look_is_nothing_yet():
+    (far,) = unnamed(seen_from(1.8, looks=9).things, {}, {})
+    assert not far.near
+    assert not unnamed(seen_from(0.8, looks=1).things, {}, {})

@@ -119,3 +119,22 @@ def test_of_two_that_it_may_be_it_is_the_one_that_belongs_where_it_stands():
 
     assert name_on("sideboard") == set()
     assert name_on("paint rack") == {"red paint can"}
+
+
+def may_be(things: list[Measured], *infos: ObjectInfo, looks: int = 4) -> list[tuple[str, ...]]:
+    recogniser, tracks = Recogniser(Knowledge(CLASSES, SURE, SURE)), Tracks()
+    recogniser.tell(infos, {})
+    for k in range(looks):
+        tracks.add(things, 0.2 * k)
+        recogniser.named(tracks.things)
+    return [recogniser.may_be[number] for number in sorted(recogniser.may_be)]
+
+
+def test_what_has_no_name_may_be_each_told_thing_that_fits_and_is_not_elsewhere() -> None:
+    jar, tin, mug = told("honey", "jar"), told("tea_tin", "tin"), told("mug", "mug", "blue")
+    (either,) = may_be([plain()], jar, tin, mug)
+    assert set(either) == {"honey", "tea_tin"}
+    tall = plain(THERE, size_m=TALL)
+    assert may_be([tall, plain(colour="blue")], BOTTLE, CAN) == [()]
+    wide = plain(size_m=(0.09, 0.09, 0.14))
+    assert may_be([tall, wide], BOTTLE, CAN) == [("lemonade",)]
