@@ -101,19 +101,13 @@ SOLD_IN: dict[str, str] = {
     **dict.fromkeys(("coffee", "cocoa"), "tin"),
 }  # fmt: skip
 """What people call by what is in it ("get the honey"), and what that is usually in."""
-WIDER = 1.6
-"""How much more a thing differs from what its last word says where the words before it are not
-known: a doll's cup and a loving cup are cups."""
 
 
 def usual(category: str) -> Usual:
     """What things of a category are usually like; `UNKNOWN` where the word says nothing."""
     words = container(category).split()
-    for first in range(len(words)):
-        known = USUAL.get(" ".join(words[first:]))
-        if known is not None:
-            return known if not first else _wider(known)
-    return UNKNOWN
+    known = (USUAL.get(" ".join(words[first:])) for first in range(len(words)))
+    return next((one for one in known if one is not None), UNKNOWN)
 
 
 def container(category: str) -> str:
@@ -121,10 +115,3 @@ def container(category: str) -> str:
     words = category.replace("_", " ").split()
     kept = SOLD_IN.get(words[-1]) if words else None
     return kept if kept is not None else " ".join(words)
-
-
-def _wider(one: Usual) -> Usual:
-    wide, high = one.vary
-    return one._replace(
-        least_m=one.least_m / WIDER, most_m=one.most_m * WIDER, vary=(wide * WIDER, high * WIDER)
-    )

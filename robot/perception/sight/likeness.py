@@ -57,6 +57,8 @@ LEAST_ERROR = 0.06
 NARROW, USUAL_SPREAD = 1.0, 0.22
 """What has the size that things of a kind have is the likelier of that kind the less they vary:
 cups are of nearly one size, filters of any."""
+STANDS = -0.3
+"""What speaks against a box that stands otherwise than such boxes usually do."""
 MOST_FORM = 2.5
 """What a round box, or a cup with corners, takes away at most."""
 MARGIN_M = 0.015
@@ -122,11 +124,12 @@ def kinds_of(category: str, plural: str, classes: Classes) -> frozenset[int]:
 def _kind(track: Seen, category: str, plural: str, namer: Knowledge) -> float:
     classes = namer.classes
     mine = kinds_of(category, plural, classes)
-    if not mine and usual(category) is UNKNOWN_THING:
-        return 0.0  # a word that eyes have no idea of
     chances = track.chances
     plain = float(chances[classes.names.index(UNKNOWN)])
     fits = sum(float(chances[k]) for k in mine) + PLAIN * plain
+    found = math.log((fits + DOUBT) / ANY) * track.support / (track.support + FEW)
+    if not mine and usual(category) is UNKNOWN_THING:
+        return found  # a word that eyes have no idea of: it may be of a kind that they know
     name = classes.name(chances, namer.sure if mine else namer.voted, track.looks_m)
     is_told = name.kind or name.family
     if is_told and track.looks >= LOOKS_TO_BE_SURE:
@@ -134,7 +137,7 @@ def _kind(track: Seen, category: str, plural: str, namer: Knowledge) -> float:
         families = {classes.families[k] for k in mine}
         if (known >= 0 and known not in mine) or (known < 0 and name.family not in families):
             return OTHER_KIND
-    return math.log((fits + DOUBT) / ANY) * track.support / (track.support + FEW)
+    return found
 
 
 def _colour(track: Seen, told: str) -> float:
@@ -182,17 +185,23 @@ def _size(track: Seen, category: str) -> float:
     lies = high_m < wide_m and known.size_m[2] > 1.2 * max(known.size_m[:2])
     if lies or known is UNKNOWN_THING:
         return 0.0
-    told_wide_m = 0.5 * (known.size_m[0] + known.size_m[1])
-    found = FITS
-    for seen_m, told_m, vary in (
-        (wide_m, told_wide_m, known.vary[0]),
-        (high_m, known.size_m[2], known.vary[1]),
-    ):
-        error = max(LEAST_ERROR, track.size_sigma_m / max(seen_m, 1e-3))
-        spread = math.hypot(vary, error)
-        found -= 0.5 * (math.log(seen_m / told_m) / spread) ** 2
-        found -= NARROW * math.log(spread / USUAL_SPREAD)
-    return max(found, LEAST_SIZE)
+    x_m, y_m, z_m = known.size_m
+    ways = [(0.5 * (x_m + y_m), z_m, 0.0)]
+    if known.kind == "box":  # a book on a shelf stands on its edge
+        ways += [(0.5 * (x_m + z_m), y_m, STANDS), (0.5 * (y_m + z_m), x_m, STANDS)]
+    found = LEAST_SIZE
+    for told_wide_m, told_high_m, turned in ways:
+        fits = FITS + turned
+        for seen_m, told_m, vary in (
+            (wide_m, told_wide_m, known.vary[0]),
+            (high_m, told_high_m, known.vary[1]),
+        ):
+            error = max(LEAST_ERROR, track.size_sigma_m / max(seen_m, 1e-3))
+            spread = math.hypot(vary, error)
+            fits -= 0.5 * (math.log(seen_m / told_m) / spread) ** 2
+            fits -= NARROW * math.log(spread / USUAL_SPREAD)
+        found = max(found, fits)
+    return found
 
 
 def spread_malus(category: str) -> float:

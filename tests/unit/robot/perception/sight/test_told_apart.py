@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from robot.messages import ObjectInfo, Place, Shape
-from robot.perception.sight.likeness import Knowledge
+from robot.perception.sight.likeness import Knowledge, kinds_of
 from robot.perception.sight.measuring import Measured
 from robot.perception.sight.recognising import Recogniser
 from robot.perception.sight.tracking import Tracks
+from robot.perception.things.naming import Classes
 from robot.se3 import SE3
+from robot.usual_things import usual
 from tests.fakes.things_in_view import CLASSES, SURE, measured
 
 HERE, THERE = (1.0, 0.0, 0.76), (1.4, 0.3, 0.76)
@@ -138,3 +140,29 @@ def test_what_has_no_name_may_be_each_told_thing_that_fits_and_is_not_elsewhere(
     assert may_be([tall, plain(colour="blue")], BOTTLE, CAN) == [()]
     wide = plain(size_m=(0.09, 0.09, 0.14))
     assert may_be([tall, wide], BOTTLE, CAN) == [("lemonade",)]
+
+
+def test_a_book_may_stand_on_its_edge_and_a_box_on_its_side() -> None:
+    book = told("book", "book", "red")
+    on_a_shelf = plain(colour="red", size_m=(0.08, 0.15, 0.19), roundness=-2.0)
+    assert names([on_a_shelf], book) == {"book": HERE}
+    assert names([plain(colour="red", size_m=(0.05, 0.05, 0.30), roundness=2.0)], book) == {}
+
+
+def test_what_is_told_by_what_is_in_it_is_what_that_is_sold_in() -> None:
+    """The honey and the jam had no names, as no kind that the namer knows is called so."""
+    classes = Classes(
+        ("jam_jar", "milk_carton", "juice_carton", "tea_cup", "", "nothing"),
+        ("cans", "boxes", "boxes", "cups", "", "nothing"),
+    )
+    kinds = {
+        word: kinds_of(word, f"{word}s", classes) for word in ("jam", "honey", "carton", "key")
+    }
+    assert kinds == {"jam": {0}, "honey": {0}, "carton": {1, 2}, "key": set()}
+    assert usual("honey") == usual("jar") and usual("orange juice") == usual("carton")
+
+
+def test_no_kind_is_surely_another_than_a_word_that_eyes_have_no_idea_of() -> None:
+    sure = [measured(HERE, kind="mug", certain=0.99, colours=("blue",))]
+    assert names(sure, told("thing", "gizmo", "blue")) == {"thing": HERE}
+    assert names(sure, told("tin", "tin", "blue")) == {}
