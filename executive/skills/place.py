@@ -24,10 +24,16 @@ from executive.skills.motions.support import occupant, stands_on, surroundings, 
 from executive.skills.parameters import SkillParams, exactly_one, finite
 from executive.skills.scripted import ScriptedSkill
 from robot.failures import Failure, failure
-from robot.messages import ObjectInfo, Place, Side, WorldMap
+from robot.messages import ObjectInfo, Place, Shape, Side, WorldMap
 from robot.model.description import RobotDescription
 from robot.physics import GRAVITY_M_S2
-from robot.planning.requests import WALK_COST_PER_M, Joints, PlacePlan, PlaceRequest
+from robot.planning.requests import (
+    WALK_COST_PER_M,
+    Joints,
+    ObjectPose,
+    PlacePlan,
+    PlaceRequest,
+)
 from robot.se3 import SE3
 
 CONTACT = 0.5
@@ -43,6 +49,8 @@ MOVE_OVER_COST_PER_M = 0.5
 LOOK_S = 0.5
 """Two pictures and a half, of 5 a second."""
 PLACED_WITHIN_M = 0.03
+AROUND_FELT_M = 0.03
+"""What holds a thing above its spot reaches so far beyond that, at a guess: nobody has seen it."""
 FULL = ("no_free_spot", "goal_in_collision", "out_of_reach", "no_stance")
 """What another board of the same shelf is tried for."""
 UPRIGHT_RAD = 0.25
@@ -134,6 +142,7 @@ class PutDown(ScriptedSkill[PlaceParams]):
         super().__init__(parameters, context)
         self._release: Release | None = None
         self._released = False
+        self._felt: tuple[ObjectPose, ...] = ()
 
     def script(self) -> Script[None]:
         """Plan, approach, lower, let go, withdraw, verify."""
@@ -172,12 +181,29 @@ class PutDown(ScriptedSkill[PlaceParams]):
                 yield from self._lower(info, place, plan, held)
             except GaveUp as end:
                 yield from self._back_off(place, plan, held)
-                if attempt == REPLANS or end.failure.code not in ELSEWHERE:
+                is_felt = self._feel(info, place, plan, end.failure)
+                if attempt == REPLANS or not (is_felt or end.failure.code in ELSEWHERE):
                     raise end
                 body.progress = 0.1
             else:
                 return place, plan
         raise AssertionError("unreachable")
+
+    def _feel(self, info: ObjectInfo, place: Place, plan: PlacePlan, reason: Failure) -> bool:
+        """Take note of what holds a thing above its spot, whether it was seen or not."""
+        high_m = reason.evidence.get("high_m")
+        if reason.code != "place_missed" or not isinstance(high_m, float):
+            return False
+        (x_m, y_m, _), floor_m = plan.X_WO.p, place.X_WP.p[2]
+        long_m, wide_m, _ = info.shape.size_m
+        size_m = (long_m + 2.0 * AROUND_FELT_M, wide_m + 2.0 * AROUND_FELT_M, high_m)
+        felt = ObjectPose(
+            id=f"felt_{len(self._felt)}",
+            X_WO=SE3((x_m, y_m, floor_m + 0.5 * high_m), plan.X_WO.quat_wxyz),
+            shape=Shape(kind="box", size_m=size_m),
+        )
+        self._felt = (*self._felt, felt)
+        return True
 
     def _choose(
         self, places: tuple[Place, ...], held: Held, *, attempt: int
@@ -230,11 +256,13 @@ class PutDown(ScriptedSkill[PlaceParams]):
     def _plan(self, place: Place, held: Held, *, attempt: int) -> Script[PlacePlan]:
         known = held_in(self.body, held.side)
         assert known is not None
+        around = surroundings(self.body, unnamed=True)
+        around = msgspec.structs.replace(around, objects=(*around.objects, *self._felt))
         request = PlaceRequest(
             place=place,
             side=held.side,
             held=known,
-            around=surroundings(self.body, unnamed=True),
+            around=around,
             start=stance_of(self.body.X_WS),
             target=self.parameters.X_WO,
             spots=self.parameters.spots,

@@ -40,6 +40,8 @@ def find(
     """
     name = body.object_info(object_id).name
     believed = _believed(body, object_id)
+    if believed is not None and body.context.holdings.find(object_id) is not None:
+        return believed  # what a hand holds need not be seen
     just_now = fresh_track(body, object_id, body.now_s - IN_VIEW_S) is not None
     if believed is not None and (just_now or not by_sight):
         return believed

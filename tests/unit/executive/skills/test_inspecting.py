@@ -268,3 +268,13 @@ def test_the_search_ends_at_what_is_made_out_from_near_by(stage, monkeypatch):
     monkeypatch.setattr(puppet, "tick", made_out)
     report = stage.run(SearchParams(object_id="cup"))
     assert report.status == "succeeded", report
+
+
+def test_what_is_in_a_hand_is_looked_for_nowhere():
+    stage = Stage()
+    assert stage.run(PickParams(object_id="cup")).status == "succeeded"
+    stage.puppet.blind = True
+    stage.puppet.time_s += 10.0
+    before = len(stage.commands(Look))
+    assert stage.run(SearchParams(object_id="cup")).status == "succeeded"
+    assert len(stage.commands(Look)) == before

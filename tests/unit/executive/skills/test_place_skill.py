@@ -308,6 +308,27 @@ def test_what_was_glimpsed_from_afar_takes_no_room(stage):
     assert occupant(stage.skill.body, info, cup.X_WO) is not None
 
 
+def test_what_nobody_saw_and_is_felt_on_the_way_down_is_put_beside(stage):
+    place, plans, tick = stage.planner._place, [], stage.puppet.tick
+
+    def elsewhere(request):
+        plans.append(request)
+        return place(replace(request, target=SE3((2.0, 2.5 - 0.3 * (len(plans) - 1), 0.75))))
+
+    def stands_there():
+        stage.puppet.surface_m = TABLE_M + (0.05 if len(plans) == 1 else 0.0)
+        tick()
+
+    stage.planner._place = elsewhere
+    stage.puppet.tick = stands_there
+    report = stage.run(ON_COUNTER)
+    assert report.status == "succeeded", report
+    (felt,) = (thing for thing in plans[1].around.objects if thing.id == "felt_0")
+    assert felt.X_WO.p[:2] == pytest.approx((2.0, 2.5), abs=0.01)
+    assert felt.shape.size_m[2] == pytest.approx(0.05, abs=0.015)
+    assert stage.puppet.things["cup"].X_WO.p[1] == pytest.approx(2.2, abs=0.03)
+
+
 def test_what_stands_beside_it_is_no_matter(stage):
     stage.run(ON_COUNTER, until_phase="stepping up")
     come_to_stand(stage, SE3((2.1, 2.5, TABLE_M + 0.05)))
