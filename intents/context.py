@@ -59,8 +59,9 @@ def of_goals(goals: tuple[Goal, ...]) -> Context:
             value = getattr(goal, slot)
             things += [value] if isinstance(value, ObjectQuery) else []
             people += [value] if isinstance(value, Person) else []
-    thing, person = (found[-1] if found else None for found in (things, people))
-    return Context(object=thing, person=person, goals=goals)
+    return Context(
+        object=things[-1] if things else None, person=people[-1] if people else None, goals=goals
+    )
 
 
 def noted(context: Context, person: str, robot: str) -> Context:
