@@ -109,9 +109,10 @@ def watched(browser: Browser, folder: Path, times: int, walk_s: float) -> dict[s
         with _started(command, folder) as process:
             if pages:
                 address = _address(process)
-                views = [browser.page(address) for _ in range(pages)]
-                for view in views:
-                    view.wait(PICTURE)
+                views = []
+                for _ in range(pages):  # one after the other: a page behind another draws nothing
+                    views.append(browser.page(address))
+                    views[-1].wait(PICTURE)
                 console = _console_of(process.pid)
                 begun = _cpu_s(console), time.monotonic(), [_counts(view) for view in views]
                 time.sleep(0.4 * walk_s)

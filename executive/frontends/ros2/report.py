@@ -26,6 +26,7 @@ def status(orders: Orders) -> dict[str, Any]:
         "mode": view.mode,
         "task": view.goal,
         "phase": view.phase,
+        "progress": {"done": view.steps[0], "steps": view.steps[1]},
         "waiting": view.waiting,
         "jobs": [
             {"number": job.number, "state": job.state, "text": job.text}

@@ -211,7 +211,7 @@ def test_pictures_come_with_their_camera_and_their_depth(rig):
 
 
 def test_how_it_is_comes_as_json_also_to_who_comes_late(rig):
-    rig.told.robot.view = View(state="working", mode="walk", goal="go to the table")
+    rig.told.robot.view = View(state="working", mode="walk", goal="go to the table", steps=(2, 5))
     rig.told.asked = ("Which cup?", ("the red one", "the blue one"))
     try:
         rig.until(lambda: rig.bridge._last_status.get("task") == "go to the table")
@@ -219,6 +219,7 @@ def test_how_it_is_comes_as_json_also_to_who_comes_late(rig):
         said = json.loads(rig.inbox(topics.STATUS).wait(within_s=HANG_S).data)
         assert (said["state"], said["mode"]) == ("working", "walk")
         assert said["choices"] == ["the red one", "the blue one"]
+        assert said["progress"] == {"done": 2, "steps": 5}
     finally:
         rig.told.asked = None
         rig.told.robot.view = View()
