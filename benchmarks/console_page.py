@@ -94,7 +94,9 @@ def _until_picture(browser: Browser, command: tuple[str, ...], folder: Path) -> 
 def watched(browser: Browser, folder: Path, times: int, walk_s: float) -> dict[str, Any]:
     """Late shares with nobody and with two pages, in turns, and what the console costs."""
     late: dict[int, list[int]] = {0: [0, 0], 2: [0, 0]}
-    shares, drawn, told = [], [], []
+    shares: list[float] = []
+    drawn: list[float] = []
+    told: list[float] = []
     for number in range(2 * times):
         pages = 2 if number % 4 in (1, 2) else 0  # ABBA
         run = folder / f"watched-{number}"
@@ -109,7 +111,7 @@ def watched(browser: Browser, folder: Path, times: int, walk_s: float) -> dict[s
         with _started(command, folder) as process:
             if pages:
                 address = _address(process)
-                views = []
+                views: list[Page] = []
                 for _ in range(pages):  # one after the other: a page behind another draws nothing
                     views.append(browser.page(address))
                     views[-1].wait(PICTURE)
@@ -163,7 +165,7 @@ def large(browser: Browser, folder: Path, _times: int, _walk_s: float) -> dict[s
             "window.tasks = []; new PerformanceObserver((list) => { for (const one of"
             " list.getEntries()) tasks.push(one.duration); }).observe({ entryTypes: ['longtask'] })"
         )
-        looks_ms = []
+        looks_ms: list[float] = []
         for k in range(20):
             t_s = 3600.0 * ((7 * k) % 20) / 20 + 5.0
             begun = time.monotonic()

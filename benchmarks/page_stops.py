@@ -183,7 +183,7 @@ def another(browser: Browser, page: Page, _rng: random.Random) -> str:
     other = browser.page(page.eval("location.href"))
     other.wait("typeof link === 'object'")
     other.call("Page.close")
-    browser._pages.remove(other)
+    browser.forget(other)
     return "another page"
 
 

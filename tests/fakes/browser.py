@@ -69,6 +69,11 @@ class Browser:
         self._pages.append(page)
         return page
 
+    def forget(self, page: Page) -> None:
+        """A page has been closed by itself."""
+        self._pages.remove(page)
+        page.close()
+
     def close_pages(self) -> None:
         """Close every page that is open: one that nobody looks at is drawn on, by a whole core."""
         for page in self._pages:
