@@ -6,17 +6,21 @@ import importlib.util
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
+from executive.frontends.console.tail import Tail
 from executive.frontends.dump import foxglove
 from executive.frontends.dump.looks import began_s, looks
 from executive.frontends.dump.tables import Table, as_csv, as_parquet, tables
 from executive.frontends.new_files import records_of, refuse_inputs, write
 from executive.frontends.output import Screen, say
-from executive.journal import journal, motion
+from executive.journal import journal, motion, sensed
 from executive.journal.journal import Event
 from executive.journal.motion import Moment
 from executive.journal.run import Run
+from executive.journal.sensed import Sensed
+from robot import shots
 from robot.errors import ConfigError, Problem
 from robot.exit_status import ExitStatus
+from robot.shots import Shot
 
 EXTRA: Mapping[str, tuple[str, str]] = {
     "mcap": ("foxglove", "mcap"),
@@ -50,7 +54,7 @@ def export(run: Run, folder: Path, kind: str, output: Path | None) -> int:
             refuse_inputs([place], records_of(folder))
             data, left_out = foxglove.recorded(
                 run, _events(folder), _moments(folder), scene=scene, motors=motors,
-                began_s=began_s(folder, run),
+                began_s=began_s(folder, run), sensed=_sensed(folder), pictures=_pictures(folder),
             )  # fmt: skip
             write(place, data, run=folder)
             if left_out:
@@ -103,3 +107,27 @@ def _moments(folder: Path) -> Iterator[Moment]:
         yield from (one for one in motion.read(folder) if abs(one.t_s) < journal.MOST_S)
     except OSError:
         return
+
+
+def _sensed(folder: Path) -> Iterator[Sensed]:
+    """What was sensed; nothing where that was not kept."""
+    for line in _kept(folder / sensed.FILE, longest=sensed.MAX_LINE, most=sensed.MOST_BYTES):
+        one = sensed.decode(line)
+        if one is not None and abs(one.t_s) < journal.MOST_S:
+            yield one
+
+
+def _pictures(folder: Path) -> Iterator[Shot]:
+    """What the camera saw, as far as it was kept."""
+    for name in (shots.COLOUR_FILE, shots.DEPTH_FILE):
+        for line in _kept(folder / name, longest=shots.MAX_LINE, most=shots.MOST_BYTES):
+            shot = shots.decode(line)
+            if shot is not None and abs(shot.t_s) < journal.MOST_S:
+                yield shot
+
+
+def _kept(path: Path, *, longest: int, most: int) -> Iterator[bytes]:
+    tail = Tail(path, longest=longest, most=most)
+    while lines := tail.lines():
+        yield from lines
+    tail.close()

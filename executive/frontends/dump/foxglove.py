@@ -18,8 +18,10 @@ from executive.frontends.dump import kinematics
 from executive.journal.journal import Event
 from executive.journal.motion import Moment
 from executive.journal.run import Run
+from executive.journal.sensed import Sensed
 from robot.reality.visual_scene import Geom, Rgba, VisualBody, VisualScene
 from robot.se3 import SE3
+from robot.shots import Shot
 
 WORLD = "world"
 MOST_THINGS = 10_000
@@ -39,6 +41,8 @@ def recorded(
     scene: VisualScene | None,
     motors: tuple[str, ...],
     began_s: float,
+    sensed: Iterable[Sensed] = (),
+    pictures: Iterable[Shot] = (),
 ) -> tuple[bytes, int]:
     """The bytes of the file, and how often something beyond the first `MOST_THINGS` was left out.
 
@@ -49,6 +53,8 @@ def recorded(
         scene: what it looks like; None where nobody knows.
         motors: names of joint positions, in the order of the moments'.
         began_s: the wall clock at time 0 of the robot [s since 1970].
+        sensed: what was sensed.
+        pictures: what the camera saw.
     """
     file = io.BytesIO()
     writer = Writer(file, scene=scene, motors=motors, began_s=began_s, begin_s=run.begin_s)
@@ -57,6 +63,10 @@ def recorded(
         writer.event(event)
     for moment in moments:
         writer.moment(moment)
+    for line in sensed:
+        writer.sensed(line)
+    for shot in pictures:
+        writer.shot(shot)
     writer.close()
     return file.getvalue(), writer.left_out
 
@@ -108,6 +118,12 @@ class Writer:
         self._tree = Channel("/tree", message_encoding="json", context=context)
         self._events = Channel("/events", message_encoding="json", context=context)
         self._state = Channel("/state", message_encoding="json", context=context)
+        self._scans = channels.LaserScanChannel("/scan", context=context)
+        self._shots = {
+            "colour": channels.CompressedImageChannel("/camera/image", context=context),
+            "depth": channels.CompressedImageChannel("/camera/depth", context=context),
+        }
+        self._motors_told = Channel("/motors", message_encoding="json", context=context)
         self._things: dict[str, Any] = {}
         self.left_out = 0
         self._context = context
@@ -222,6 +238,38 @@ class Writer:
         news = {name: value for name, value in state.items() if value is not None}
         if news:
             self._state.log(news, log_time=at)
+
+    def sensed(self, line: Sensed) -> None:
+        """What was sensed: scans in the lidar's frame, torques and temperatures of motors."""
+        from foxglove.messages import LaserScan, Pose
+
+        at = self._ns(line.t_s)
+        scene, scan = self._scene_known, line.scan
+        if scan is not None and scene is not None:
+            ranges_m = np.frombuffer(scan.ranges_mm, "<u2", len(scan.ranges_mm) // 2) / 1000.0
+            ranges_m[ranges_m == 0.0] = np.inf
+            pose: Pose = _pose(kinematics.pose_of(scene.lidar.X_BS))
+            told = LaserScan(
+                timestamp=self._stamp(line.t_s), frame_id=scene.bodies[scene.lidar.body].id,
+                pose=pose, start_angle=scan.from_rad,
+                end_angle=scan.from_rad + scan.step_rad * max(0, len(ranges_m) - 1),
+                ranges=ranges_m.tolist(), intensities=[],
+            )  # fmt: skip
+            self._scans.log(told, log_time=at)
+        news = {"torque": line.torque, "heat_c": line.heat}
+        if any(news.values()):
+            self._motors_told.log({"names": self._motors, **news}, log_time=at)
+
+    def shot(self, shot: Shot) -> None:
+        """A picture, as it was packed."""
+        from foxglove.messages import CompressedImage
+
+        scene = self._scene_known
+        frame = scene.bodies[scene.camera.body].id if scene is not None else WORLD
+        told = CompressedImage(
+            timestamp=self._stamp(shot.t_s), frame_id=frame, data=shot.data, format=shot.type
+        )
+        self._shots[shot.kind].log(told, log_time=self._ns(shot.t_s))
 
     def _thing(self, name: str, flat: Any, scene: VisualScene | None, t_s: float) -> None:
         """Where something is seen: a topic each, so that whoever seeks finds the newest of each."""

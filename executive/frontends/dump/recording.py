@@ -13,8 +13,9 @@ from executive.frontends.console.tail import Tail
 from executive.frontends.dump.foxglove import Writer
 from executive.frontends.dump.looks import began_s, looks
 from executive.frontends.end_signals import Ending
-from executive.journal import journal, motion
+from executive.journal import journal, motion, sensed
 from executive.journal.reader import Reader
+from robot import shots
 
 T = TypeVar("T")
 
@@ -45,6 +46,11 @@ class Recording:
             folder / journal.FILE, longest=journal.MAX_LINE, most=journal.MOST_BYTES
         )
         self._motion = Tail(folder / motion.FILE, longest=motion.MAX_LINE, most=motion.MOST_BYTES)
+        self._sensed = Tail(folder / sensed.FILE, longest=sensed.MAX_LINE, most=sensed.MOST_BYTES)
+        self._pictures = [
+            Tail(folder / name, longest=shots.MAX_LINE, most=shots.MOST_BYTES)
+            for name in (shots.COLOUR_FILE, shots.DEPTH_FILE)
+        ]
         self.last_s = -math.inf
 
     def take(self) -> bool:
@@ -73,8 +79,18 @@ class Recording:
             if moment.t_s > self.last_s:
                 self.last_s = moment.t_s
                 writer.moment(moment)
+        senses = self._sensed.lines()
+        for line in self._until_asked(senses):
+            one = sensed.decode(line)
+            if one is not None and abs(one.t_s) < journal.MOST_S:
+                writer.sensed(one)
+        seen = [line for pictures in self._pictures for line in pictures.lines()]
+        for line in self._until_asked(seen):
+            shot = shots.decode(line)
+            if shot is not None and abs(shot.t_s) < journal.MOST_S:
+                writer.shot(shot)
         self._file.flush()
-        return bool(lines or moves)
+        return bool(lines or moves or senses or seen)
 
     def _until_asked(self, items: Iterable[T]) -> Iterator[T]:
         """Those of a list, until it is to end."""
@@ -102,7 +118,8 @@ class Recording:
         if self._writer is not None:
             self._writer.close()
         self._events.close()
-        self._motion.close()
+        for one in (self._motion, self._sensed, *self._pictures):
+            one.close()
 
 
 def follow(

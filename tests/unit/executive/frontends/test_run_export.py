@@ -13,14 +13,19 @@ import numpy as np
 import pytest
 
 from executive.frontends.dump.command import Asked, dump
+from executive.frontends.dump.recording import Recording
 from executive.frontends.dump.tables import FORMULAS
-from executive.journal import journal, motion
+from executive.frontends.ending import Ending
+from executive.journal import journal, motion, sensed
 from executive.journal.motion import Moment
+from executive.journal.sensed import Scan, Sensed
+from robot import shots
 from robot.errors import ConfigError
 from robot.model import description
 from robot.model.body import BodyModel
 from robot.printable import is_printable
 from robot.se3 import SE3
+from robot.shots import Shot
 
 CUP = (1.0, 0.5, 0.8, 1.0, 0.0, 0.0, 0.0)
 ROBOT = description.load("juno")
@@ -123,6 +128,44 @@ def test_an_mcap_has_joints_by_name_words_by_level_and_things_while_they_are_kno
     assert found["/state"][-1][1] == {"held": ["red_cup"]}
     shown = {entity.id for entity in found["/scene"][0][1].entities}
     assert "torso" in shown and any(name.startswith("furniture/") for name in shown)
+
+
+@pytest.mark.parametrize("how", ["dump", "recording"])
+def test_an_mcap_has_scans_pictures_torques_and_temperatures(run, tmp_path, how):
+    folder, moves = run
+    path = tmp_path / "a.mcap"
+    ranges_m = np.full(180, 1.5)
+    ranges_m[90] = 0.0  # no hit
+    scan = Scan(
+        from_rad=-3.0, step_rad=0.03, ranges_mm=np.rint(1000 * ranges_m).astype("<u2").tobytes()
+    )
+    torque, heat = (0.5,) * len(moves[0].q), (31.0,) * len(moves[0].q)
+    line = sensed.encode(Sensed(t_s=1.5, scan=scan, torque=torque, heat=heat))
+    _write(folder / sensed.FILE, [line, b"no line"])
+    shot = Shot(
+        t_s=2.0, kind="colour", type="jpeg", data=b"a picture", width=4, height=3,
+        focal_px=(2.0, 2.0), centre_px=(1.5, 1.0),
+    )  # fmt: skip
+    _write(folder / shots.COLOUR_FILE, [shots.encode(shot)])
+    if how == "dump":
+        assert dump(Asked(run=str(folder), kind="mcap", output=path)) == 0
+    else:
+        with path.open("wb") as file, Ending() as ending:
+            recording = Recording(folder, file, ending)
+            while recording.take():
+                pass
+            recording.close()
+    found, _ = _messages(path)
+    ((when_s, told),) = found["/scan"]
+    assert when_s == pytest.approx(WALL_S + 1.5)
+    frames = (*found["/tf_static"][0][1].transforms, *found["/tf"][0][1].transforms)
+    assert told.frame_id in {one.child_frame_id for one in frames}
+    assert (told.start_angle, told.end_angle) == pytest.approx((-3.0, -3.0 + 179 * 0.03))
+    assert list(told.ranges[:90]) == [1.5] * 90 and told.ranges[90] == float("inf")
+    ((_, motors),) = found["/motors"]
+    assert motors == {"names": list(ROBOT.motor_names), "torque": [*torque], "heat_c": [*heat]}
+    ((_, picture),) = found["/camera/image"]
+    assert (picture.data, picture.format) == (b"a picture", "jpeg")
 
 
 @pytest.mark.parametrize("kind", ["csv", "parquet"])
