@@ -55,9 +55,9 @@ def find(
         X_WO = shows.X_WO() if shows.enough else (yield from _make_sure(body, object_id))
         if X_WO is not None:
             return X_WO
-    X_WO = yield from _look_closer(body, object_id)
-    if X_WO is not None:
-        return X_WO
+    closer = yield from _look_closer(body, object_id)
+    if closer is not None:
+        return closer
     body.context.searched_s[object_id] = body.now_s
     raise give_up(
         "object_not_seen",

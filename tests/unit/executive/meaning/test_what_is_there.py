@@ -11,14 +11,15 @@ from executive.meaning import answers, request
 from executive.meaning.knowledge import Knowledge
 from executive.meaning.robot_state import state_of
 from executive.skills.holding import Held, Holdings
-from executive.trees.parts import Settle, errands, walk
+from executive.trees.parts import Branch, Settle, errands, walk
 from intents.goals import ObjectQuery, Pick, Place, from_builtins
 from intents.grounding import Entity, Unknown, ground
+from intents.numbers import Noun
 from intents.replies import where
 from intents.state import RobotState
 from intents.undoing import undone
 from robot.failures import Failure
-from robot.messages import Track, WorldState
+from robot.messages import Shape, Track, Unnamed, WorldState
 from robot.se3 import SE3
 from tests.fakes.worlds import WHERE, world_map
 
@@ -32,12 +33,14 @@ def on(place_name: str, *, aside_m: float = 0.0) -> SE3:
     return SE3((x, y + aside_m, z + 0.05))
 
 
-def board(where_to: dict[str, SE3], *, given=(), held=(), held_by=None) -> Blackboard:
+def board(where_to: dict[str, SE3], *, given=(), held=(), held_by=None, unnamed=()) -> Blackboard:
     made = Blackboard()
     tracks = tuple(
         Track(id=name, X_WO=X_WO, seen_s=0.0, held_by=held_by) for name, X_WO in where_to.items()
     )
-    world = WorldState(stamp_s=0.0, X_WN=SE3(), X_WB=SE3(), fix_age_s=0.0, tracks=tracks)
+    world = WorldState(
+        stamp_s=0.0, X_WN=SE3(), X_WB=SE3(), fix_age_s=0.0, tracks=tracks, unnamed=unnamed
+    )
     writer = made.claim(WORLD.writer)
     writer.set(WORLD, world)
     writer.set(GIVEN, dict(given))
@@ -163,3 +166,42 @@ def test_a_thing_that_nobody_had_seen_before_goes_back_to_where_it_was_taken_fro
     assert undone("undo that", goals, before, now) == (Place(object=cup, on="table"),)
     nowhere = replace(now, entities=(replace(now.entities[0], came_from=""),))
     assert undone("undo that", goals, before, nowhere) == "I do not know where the red cup was."
+
+
+def nameless(where_to: dict[str, SE3], *may_be: str) -> Blackboard:
+    """With something on the table that nobody has made out."""
+    shape = Shape(kind="cylinder", size_m=(0.08, 0.08, 0.1))
+    thing = Unnamed(id="unnamed_3", words="white thing of 10 cm", X_WO=on("table"), shape=shape,
+                    seen_s=0.0, may_be=may_be)  # fmt: skip
+    return board(where_to, unnamed=(thing,))
+
+
+def test_a_table_with_something_that_may_be_meant_and_has_no_name_is_not_empty():
+    (settle, *_) = settles(understood(state_of(board({}), KNOWLEDGE)))
+    ids = [info.id for info in world_map().objects]
+    found = settle.question(board(everything_elsewhere()))
+    assert isinstance(found, Failure) and found.code == "object_not_seen"
+    found = settle.question(nameless(everything_elsewhere(), ids[0]))
+    assert isinstance(found, Failure) and found.code == "not_made_out"
+    assert "white thing of 10 cm on the table" in found.cause
+
+
+def test_who_takes_everything_sees_to_it_in_the_end_that_nothing_is_left_without_a_name():
+    (settle, *_) = settles(understood(state_of(board({}), KNOWLEDGE)))
+    ids = [info.id for info in world_map().objects]
+    branches = [part for _, part in walk(settle.then((ids[0],))) if isinstance(part, Branch)]
+    (left,) = [part for part in branches if part.name.startswith("is anything left")]
+    assert not left.question(board(everything_elsewhere()))
+    assert left.question(nameless(everything_elsewhere(), ids[0]))
+    assert not left.question(nameless(everything_elsewhere(), "what nobody told"))
+
+
+def test_a_count_says_what_may_be_one_more():
+    ids = frozenset(info.id for info in world_map().objects)
+    table = KNOWLEDGE.places("table")
+    words = answers.count(
+        ids, table, noun=Noun("cup", "cups"), where=" on the table", of=KNOWLEDGE.map
+    )
+    assert words(board({})).text == "I see 0 cups on the table."
+    told = words(nameless({}, *ids)).text
+    assert told.endswith("I cannot tell what a white thing of 10 cm on the table is.")
