@@ -147,19 +147,14 @@ class Reception(Heard):
 
     def _believe(self, which: npt.NDArray[np.intp], told: datagrams.Records, now_s: float) -> None:
         """Take what drives said, but for what is no number, and where nobody can have come to."""
-        q, qd, tau = (told[key].astype(float) for key in ("q", "qd", "tau"))
-        finite = np.isfinite(q) & np.isfinite(qd) & np.isfinite(tau)
+        # Before they are made wider: to widen a signalling NaN is a warning on standard error.
+        finite = np.isfinite(told["q"]) & np.isfinite(told["qd"]) & np.isfinite(told["tau"])
         if not finite.all():
             bad = which[~finite]
             for board in self.boards.values():
                 board.refused["not_a_number"] += int(np.isin(bad, board.places).sum())
-            which, told, q, qd, tau = (
-                which[finite],
-                told[finite],
-                q[finite],
-                qd[finite],
-                tau[finite],
-            )
+            which, told = which[finite], told[finite]
+        q, qd, tau = (told[key].astype(float) for key in ("q", "qd", "tau"))
         self.state[which], self.faults[which] = told["state"], told["faults"]
         self._came[which] = True
         calm = self._calm(which, q, now_s)

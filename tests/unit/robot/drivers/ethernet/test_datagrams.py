@@ -1,6 +1,7 @@
 """Datagrams of boards: the bytes that docs/hardware.md shows, and whatever else may come in."""
 
 import struct
+import warnings
 from typing import get_args
 
 import numpy as np
@@ -180,3 +181,23 @@ def test_noise_and_forgeries_raise_nothing_and_every_one_is_counted():
         heard.refused
     )
     assert HEADER.size == 28
+
+
+def test_a_signalling_nan_is_refused_without_a_word():
+    """What a million forgeries found: numpy warned on standard error, in the middle of the loop."""
+    joints = limbs(1, 1)
+    heard = Reception(joints, session=7)
+    heard.expect(Kind.STATE, 100)
+    body = ethernet_codec.itself(obeyed=1, volts=48.0, celsius=30.0, refused=0, flags=0)
+    joint = bytearray(ethernet_codec.joint(0.1, 0.0, 0.0, celsius=30.0, faults=0, state=1))
+    joint[:4] = bytes.fromhex("0100a07f")
+    number = next(iter(joints.boards.values())).number
+    told = ethernet_codec.answer(
+        ethernet_codec.Asked(2, 0, 1, 7, 100, b""),
+        board=number, mask=1, time_us=5000, body=body + bytes(joint),
+    )  # fmt: skip
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        heard.take([(next(iter(joints.boards)), told)], 1.0)
+    assert heard.refused["not_a_number"] == 1
+    assert np.isfinite(heard.q).all()
