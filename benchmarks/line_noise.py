@@ -67,7 +67,8 @@ def spoilt(
     """So many frames, a look at a time; `cuts`: whether a frame may come in part."""
     done = 0
     while done < count:
-        batch = [said[index] for index in draw.integers(len(said), size=A_LOOK)]
+        which: list[int] = draw.integers(len(said), size=A_LOOK).tolist()
+        batch = [said[index] for index in which]
         yield [_spoilt(one, draw, cuts=cuts) for one in batch]
         done += A_LOOK
 
