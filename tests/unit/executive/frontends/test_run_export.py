@@ -15,7 +15,7 @@ import pytest
 from executive.frontends.dump.command import Asked, dump
 from executive.frontends.dump.recording import Recording
 from executive.frontends.dump.tables import FORMULAS
-from executive.frontends.ending import Ending
+from executive.frontends.end_signals import Ending
 from executive.journal import journal, motion, sensed
 from executive.journal.motion import Moment
 from executive.journal.sensed import Scan, Sensed
