@@ -25,7 +25,7 @@ from robot.drivers.motors.alarms import Level
 from robot.drivers.motors.owned.driver import GOOD_FOR_S
 from robot.drivers.motors.owned.memory import Order
 from robot.messages import Walk
-from robot.owner import ladder
+from robot.owner import reactions
 from robot.owner.balancing import OwnController
 from robot.owner.owner import BusOwner
 from robot.owner.sit import plan
@@ -171,7 +171,7 @@ def _follow(trial: Trial, row: Row) -> str:
     if trial.owner.state.latched:
         return _alone(trial, is_claimed=True)
     trial.pass_s(GOES_ON_S)
-    return WENT_ON if rig.upright and trial.owner.state == ladder.WELL else "fell"
+    return WENT_ON if rig.upright and trial.owner.state == reactions.WELL else "fell"
 
 
 def _periods(rng: random.Random, longest_s: float) -> int:
