@@ -51,7 +51,8 @@ class Posture:
 
     @property
     def _height_m(self) -> float:
-        return float(self._estimator.p[2])
+        x, y, z = self._estimator.p.tolist()
+        return z - self._estimator.ground.under(x, y)
 
     def falling(self, *, rising: bool) -> str:
         """Why it cannot be held up any more, empty while it can; who rises may be low."""
