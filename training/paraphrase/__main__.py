@@ -10,8 +10,8 @@ Without it, it goes on with the network that ships. From the speakers that it ha
 learns when its readings are to be trusted, and from plain orders (`plain_orders`), when those of
 the grammar are; `--epochs 0 --worlds "16[a-h]"` learns that alone, of worlds that the network that
 ships had not heard; `--check --worlds "1[678]?"` learns when the network rightly doubts what the
-grammar reads. Nothing is learnt of the worlds 16i, 16j, 17d and 18d, however they are asked for:
-`--judge` says how the whole reads them. On a machine with other work `OPENBLAS_NUM_THREADS=1` makes
+grammar reads. Nothing is learnt of the worlds 16i, 16j, 17d, 18d and 19f, however they are asked
+for: `--judge` says how the whole reads them. On a machine with other work `OPENBLAS_NUM_THREADS=1` makes
 it many times faster.
 """
 
@@ -41,7 +41,7 @@ _PLAIN = 1200
 """So many plain words are learnt as sentences of their own."""
 _ORDERS = 8
 """So many plain orders are made up in each world."""
-_JUDGED = ("16i", "16j", "17d", "18d")
+_JUDGED = ("16i", "16j", "17d", "18d", "19f")
 """Worlds by which the whole is judged: no choice is learnt there."""
 _Told = tuple[Marked, str]
 """A sentence and its plain words."""
