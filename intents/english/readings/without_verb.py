@@ -103,7 +103,8 @@ def only_named(sentence: Sentence, at: int) -> None:
     phrase = noun_phrase(text, at)
     if phrase is None or phrase.end < len(text) or phrase.noun != "name":
         return
-    if phrase.name("object", "category") and at == 0:
+    nothing_before = all(text.word(before) in ("and", "then") for before in range(at))
+    if phrase.name("object", "category") and nothing_before:
         unclear = Unclear(f"What shall I do with “{text.raw(at, phrase.end)}”?")
         unclear.about = to_object(phrase, sentence.scope)
         raise unclear
