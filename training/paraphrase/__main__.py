@@ -11,8 +11,8 @@ learns when its readings are to be trusted, and from plain orders (`plain_orders
 the grammar are; `--epochs 0 --worlds "16[a-h]"` learns that alone, of worlds that the network that
 ships had not heard; `--check --worlds "1[678]?"` learns when the network rightly doubts what the
 grammar reads. Nothing is learnt of the worlds 16i, 16j, 17d, 18d and 19f, however they are asked
-for: `--judge` says how the whole reads them. On a machine with other work `OPENBLAS_NUM_THREADS=1` makes
-it many times faster.
+for: `--judge` says how the whole reads them. On a machine with other work
+`OPENBLAS_NUM_THREADS=1` makes it many times faster.
 """
 
 from __future__ import annotations
