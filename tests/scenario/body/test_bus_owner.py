@@ -82,7 +82,7 @@ class Owned:
             command = self.owner.decide(sample, order, is_pressed=is_pressed, is_claimed=commanded)
             if self.silent_from_s < math.inf:
                 self.told.setdefault(self.owner.state.level, now_s - self.silent_from_s)
-                used = np.abs(sample.motors.tau) / self.body.torque_limit_nm
+                used = np.abs(self.torque_nm) / self.body.torque_limit_nm
                 self.most = max(self.most, float(used.max()))
             if command is not None:
                 devices.write(command)

@@ -83,7 +83,7 @@ def test_lines_that_make_no_sense_are_told_of(folder, capsys):
     path = folder / "journal.jsonl"
     path.write_bytes(b"garbage\n" + path.read_bytes())
     dump(Asked(run=str(folder), kind="text"))
-    assert "1 lines of the journal, the first of them line 1," in capsys.readouterr().err
+    assert "line 1 of the journal makes no sense" in capsys.readouterr().err
 
 
 def test_a_journal_without_a_tree_is_said_to_have_none(folder, capsys):

@@ -62,7 +62,7 @@ def test_what_was_taken_from_above_goes_on_a_high_board_when_taken_with_a_levell
     solver: Solver,
 ) -> None:
     low = Shape(kind="box", size_m=(0.05, 0.17, 0.035))
-    remote = on_table(-0.1, 0.2, shape=low)
+    remote = on_table(-0.1, 0.3, shape=low)  # first taken from above there
     board = BOARD[BOARDS_M[2]]
     high = msgspec.structs.replace(board, X_WP=SE3((0.0, 0.0, 0.06)) @ board.X_WP)
     reached: dict[bool, bool] = {}
