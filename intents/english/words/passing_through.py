@@ -24,6 +24,7 @@ _ONWARD = phrases(
     "to,into,on to,onto,on into,over to,and to,and into,and on to,and then to,then to"
 )
 _LONGEST = 3
+_LISTED = (COMMA, "and", "then", "through")
 
 
 def by_way_of(tokens: list[Token], index: NameIndex) -> list[Token]:
@@ -35,20 +36,36 @@ def by_way_of(tokens: list[Token], index: NameIndex) -> list[Token]:
 
 
 def _to_and_on(tokens: list[Token], at: int, index: NameIndex) -> list[Token] | None:
-    """Go *through the hall to the bar*: to the hall, then to the bar."""
+    """Go *through the hall and the yard to the bar*: to the hall, to the yard, then to the bar."""
     said = [token.text for token in tokens]
-    middle = _floor_end(said, at + 1, index)
-    if not middle or not _goes(said, at):
+    rooms = _rooms(said, at + 1, index)
+    if not rooms or not _goes(said, at):
         return None
+    passed = rooms[-1][1]
     on = next(
-        (n for n in range(middle + _LONGEST, middle, -1) if tuple(said[middle:n]) in _ONWARD), 0
+        (n for n in range(passed + _LONGEST, passed, -1) if tuple(said[passed:n]) in _ONWARD), 0
     )
     end = _floor_end(said, on, index) if on else 0
     if not end:
         return None
-    first = [Token("to", tokens[at].raw), *tokens[at + 1 : middle]]
-    then = [Token(COMMA, ""), Token("then", ""), Token("go", ""), Token("to", tokens[on - 1].raw)]
-    return [*tokens[:at], *first, *then, *tokens[on:]]
+    walks = [Token("to", tokens[at].raw), *tokens[rooms[0][0] : rooms[0][1]]]
+    for begin, over in [*rooms[1:], (on, end)]:
+        walks += [Token(COMMA, ""), Token("then", ""), Token("go", "")]
+        walks += [Token("to", tokens[begin - 1].raw), *tokens[begin:over]]
+    return [*tokens[:at], *walks, *tokens[end:]]
+
+
+def _rooms(said: list[str], at: int, index: NameIndex) -> list[tuple[int, int]]:
+    """Where each of the rooms listed from here on begins and ends: the hall and the yard."""
+    found: list[tuple[int, int]] = []
+    while end := _floor_end(said, at, index):
+        found.append((at, end))
+        at = end
+        while at < len(said) and said[at] in _LISTED:
+            at += 1
+        if at == end:
+            break
+    return found
 
 
 def _behind(tokens: list[Token], at: int, index: NameIndex) -> list[Token] | None:

@@ -37,6 +37,10 @@ def walked(said: str) -> list[object]:
         ("go to the studio first, then through the lobby and on to the back gate",
          ["studio", "lobby", "back gate"]),
         ("go through the lobby to the studio and wave", ["lobby", "studio", "gesture"]),
+        ("walk through the lobby and the boiler room into the studio, then wait at the back gate",
+         ["lobby", "boiler room", "studio", "back gate", "wait"]),
+        ("head through the lobby, then through the boiler room to the back gate",
+         ["lobby", "boiler room", "back gate"]),
         ("walk through the boiler room", ["boiler room"]),
     ],
 )  # fmt: skip
