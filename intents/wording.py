@@ -169,8 +169,15 @@ def _subject(query: ObjectQuery | None, person: Person | None) -> str:
 
 def _many(query: ObjectQuery | None, person: Person | None) -> str:
     if query is not None:
-        return thing(_each(query)).replace("every", "the", 1)
+        return thing(_several(_each(query))).replace("every", "the", 1)
     return who(person or Person()).replace("a person", "the people", 1)
+
+
+def _several(query: ObjectQuery) -> ObjectQuery:
+    """The same, called by many: "cups"; what ends as many do stays ("scissors", "crisps")."""
+    noun = query.name or query.category or "thing"
+    many = noun if noun.endswith("s") and not noun.endswith("ss") else plural(noun)
+    return replace(query, name=many)
 
 
 def _looked_at(goal: g.LookAt) -> str:

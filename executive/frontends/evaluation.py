@@ -121,7 +121,7 @@ def _say(found: Found, folder: Path, options: Eval) -> None:
     if found.runs:
         show(found)
     if (folder / keeping.FOLDER).is_dir():
-        say(f"what went wrong: humanoid why {folder / keeping.FOLDER}/NAME (dump and film, too)")
+        say(f"run by run: humanoid why {folder / keeping.FOLDER}/NAME (dump and film, too)")
     if not found.left:
         say(f"results: {folder / FILE}; more seeds with: --resume {folder}")
 

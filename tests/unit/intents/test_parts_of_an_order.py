@@ -56,7 +56,7 @@ INN = Vocabulary(
         ),
         (
             "open the chest and count the instruments in it",
-            "open the chest ; count the instrument at the chest",
+            "open the chest ; count the instruments at the chest",
         ),
         (
             "put the jug on the bar, the one that is on the bunk",
@@ -66,7 +66,7 @@ INN = Vocabulary(
         ("start at the bar, then go to the cellar", "go to the bar ; go to the cellar"),
         (
             "report how many people are at the bar, then report how many jugs are on it",
-            "count the people at the bar ; count the jug at the bar",
+            "count the people at the bar ; count the jugs at the bar",
         ),
         ("explain yourself", "why did you stop"),
     ],

@@ -25,7 +25,7 @@ READ_BACK = {
     ),
     "nod three times": "3 times: nod",
     "stand on your left leg for 5 s": "stand on my left leg for 5 s",
-    "count the mugs in the garage": "count the mug at the garage",
+    "count the mugs in the garage": "count the mugs at the garage",
     "switch the lamp off": "switch off the lamp",
 }
 
