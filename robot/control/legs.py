@@ -145,7 +145,7 @@ class Legs:
         self._now_s += dt_s
         self._ramp(dt_s)
         (x, y, z), (vx, vy, _) = dynamics.com.tolist(), dynamics.com_velocity.tolist()
-        omega = math.sqrt(GRAVITY_M_S2 / max(0.2, z - self.gait.ground.under(x, y)))
+        omega = math.sqrt(GRAVITY_M_S2 / max(0.2, z))
         self.gait.omega_1_s = omega
         xi = (x + vx / omega, y + vy / omega)
         measured: dict[Side, Sole] = {side: self._sole(dynamics, i) for i, side in enumerate(SIDES)}
@@ -220,11 +220,9 @@ class Legs:
         """The pendulum's, about the commanded ZMP; up and down, the pelvis' height's."""
         most, stiffness = MAX_COM_ACC_M_S2, omega * omega
         x, y = (max(-most, min(most, stiffness * (com[k] - zmp[k]))) for k in (0, 1))
-        task, ground = self._tasks.height, self.gait.ground
-        base_x, base_y, base_z = dynamics.data.qpos[:3].tolist()
-        vx, vy, vz = dynamics.data.qvel[:3].tolist()
-        rate_error = self._height_rate_m_s + ground.along * vx + ground.across * vy - vz
-        error = self.height_m + ground.under(base_x, base_y) - base_z
+        task = self._tasks.height
+        rate_error = self._height_rate_m_s - float(dynamics.data.qvel[2])
+        error = self.height_m - float(dynamics.data.qpos[2])
         return x, y, task.kp_1_s2 * error + task.kd_1_s * rate_error
 
     def _own_acc(self, dynamics: Dynamics, heading_rad: float) -> Array:
@@ -259,8 +257,7 @@ class Legs:
         turn_kp, turn_kd = self._tasks.swing_turn.kp_1_s2, self._tasks.swing_turn.kd_1_s
         (cosine, _, tilt_y), (sine, _, tilt_x), _ = dynamics.sole_rotation[i].tolist()
         yaw_error = wrap_angle(yaw - math.atan2(sine, cosine))
-        # (sole's z) x (floor's normal) lays the sole along the floor
-        tilt = (tilt_x + swing.ground.across, -tilt_y - swing.ground.along, yaw_error)
+        tilt = (tilt_x, -tilt_y, yaw_error)  # z x (sole's z) levels the sole
         acc += [turn_kp * tilt[k] - turn_kd * v[3 + k] for k in range(3)]
         acc[5] += turn_kd * swing.velocity[2] + swing.acceleration[2]
         return acc

@@ -354,7 +354,6 @@ class ControlLoop:
         self.head.update(dt_s, dynamics, state.q[self.head.motors])
         q_des[self.head.motors] = self.head.q
         load = bearing(self.estimator.load, sample.force.ankle_wrench, self._weight_n)
-        self.legs.gait.ground = self.estimator.ground
         task, self._reference = self.legs.update(dt_s, dynamics, load, rest_acc)
         solution = self.whole.solve(dynamics, task)
         self._unsolved = 0 if solution.ok else self._unsolved + 1

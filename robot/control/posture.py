@@ -51,8 +51,7 @@ class Posture:
 
     @property
     def _height_m(self) -> float:
-        x, y, z = self._estimator.p.tolist()
-        return z - self._estimator.ground.under(x, y)
+        return float(self._estimator.p[2])
 
     def falling(self, *, rising: bool) -> str:
         """Why it cannot be held up any more, empty while it can; who rises may be low."""

@@ -14,11 +14,8 @@ import mujoco
 import numpy as np
 
 from robot.fusion.state_estimator.contacts import Contacts
-from robot.fusion.state_estimator.errors import ACCEL_BIAS, GYRO_BIAS
-from robot.fusion.state_estimator.filter import ContactFilter
-from robot.fusion.state_estimator.ground import Ground
+from robot.fusion.state_estimator.filter import ACCEL_BIAS, GYRO_BIAS, ContactFilter, exponential
 from robot.fusion.state_estimator.parameters import Parameters
-from robot.fusion.state_estimator.turning import exponential
 from robot.messages import ImuBias
 from robot.model.body import SIDES, BodyModel
 from robot.physics import GRAVITY_M_S2
@@ -87,11 +84,6 @@ class BaseStateEstimator:
             gyro_sigma_rad_s=_vector(sigma[GYRO_BIAS]),
             accel_sigma_m_s2=_vector(sigma[ACCEL_BIAS]),
         )
-
-    @property
-    def ground(self) -> Ground:
-        """What is known of the ground under and around the feet."""
-        return self._filter.ground
 
     def _recall(self, known: ImuBias) -> None:
         state = self._filter

@@ -28,7 +28,6 @@ from robot.control.walking.gait_reference import Reference
 from robot.control.walking.support import SupportPolygon
 from robot.control.walking.swing import FREEZE_S, Swing
 from robot.control.walking.zmp_plan import HORIZON_STEPS, point_of
-from robot.fusion.state_estimator.ground import LEVEL, Ground
 from robot.messages import Side
 from robot.model.body import SIDES
 from robot.model.description import RobotDescription
@@ -54,13 +53,12 @@ class Gait:
     """One body's gait.
 
     `planted` are the soles on the floor as last measured; `wish` is what drives the next decision,
-    None for standing. The caller sets the pendulum's `omega_1_s` and the `ground` every tick.
+    None for standing. `omega_1_s` is the pendulum's frequency, set by the caller every tick.
     """
 
     description: RobotDescription
     planted: dict[Side, Sole]
     omega_1_s: float = 4.0
-    ground: Ground = LEVEL
     wish: Wish | None = None
     phase: Phase = "stand"
     phase_s: float = 0.0
@@ -159,7 +157,8 @@ class Gait:
         wish = self.wish or Twist()
         landings = [first]
         feet = dict(self.planted)
-        feet[side := other(self.support)] = first
+        side = other(self.support)
+        feet[side] = first
         while len(landings) < HORIZON_STEPS:
             side = other(side)
             landing = self.planner.next(feet[other(side)], feet[side], side, wish)
@@ -201,8 +200,10 @@ class Gait:
             left, right = self.planted["left"], self.planted["right"]
             swing = self.planner.first_swing(left, right, self.wish)
             support = other(swing)
-            feet = self.planted[support], self.planted[swing]
-            if self.planner.next(*feet, swing, self.wish) is None:
+            if (
+                self.planner.next(self.planted[support], self.planted[swing], swing, self.wish)
+                is None
+            ):
                 swing = support
             self._begin(swing=swing, start_s=self.description.walking.start_s)
 
@@ -264,7 +265,6 @@ class Gait:
         assert swing is not None
         if not self._one_leg_s:
             self._adjust(dt_s, xi)
-        swing.ground = self.ground
         swing.heed(measured[side])
         swing.advance(dt_s)
         expected = self.phase_s > EXPECTED_SHARE * self.duration_s and swing.vz <= 0.0
@@ -312,15 +312,14 @@ class Gait:
         landing = self._landings[0]
         if not self._one_leg_s:
             self._landings = self._look_ahead(landing)
-        own, over = self.planted[side], self.ground
-        at_m, time_s = over.soles_m[SIDES.index(side)], self.duration_s
-        self.swing = Swing(own, landing, time_s, walking, ground=over, start_m=at_m)
+        self.swing = Swing(self.planted[side], landing, self.duration_s, walking)
         self._replan(point_of(self.planted[self.support]))
         self._polygon = self._hull([self.planted[self.support]])
 
     def _stand(self) -> None:
         self.phase, self.phase_s, self.duration_s = "stand", 0.0, 0.0
-        self.swing, self._landings = None, []
+        self.swing = None
+        self._landings = []
         self._integral = [0.0, 0.0]
         self._plan = zmp_plan.standing(self._stance_centre(), self.omega_1_s)
         self._polygon = self._hull([self.planted["left"], self.planted["right"]])
@@ -331,7 +330,8 @@ class Gait:
         return stance_of(self.planted["left"], self.planted["right"])
 
     def _stance_centre(self) -> Point:
-        return point_of(self._stance())
+        stance = self._stance()
+        return (stance.x, stance.y)
 
     def _hull(self, soles: list[Sole]) -> SupportPolygon:
         foot = self.description.feet["left"]

@@ -6,7 +6,6 @@ import math
 
 from robot.control.walking import stumble
 from robot.control.walking.footsteps import Sole
-from robot.fusion.state_estimator.ground import LEVEL, Ground
 from robot.model.gait import Walking
 from robot.se3 import wrap_angle
 
@@ -20,25 +19,15 @@ class Swing:
 
     Attributes:
         position, velocity, acceleration: of (x, y, yaw), each (3,).
-        z, vz, az: height of the sole [m] and its derivatives.
-        ground: over which it goes, and that it comes down on.
+        z, vz, az: height of the sole above the floor [m] and its derivatives.
         landing: where it is going to, filtered.
         urgent: whether it is to catch the body: better a little early than late.
         raises: how often it was lifted over what held it.
         blocked: whether something holds it, before which it comes down.
     """
 
-    def __init__(
-        self,
-        start: Sole,
-        landing: Sole,
-        duration_s: float,
-        walking: Walking,
-        *,
-        ground: Ground = LEVEL,
-        start_m: float = 0.0,
-    ) -> None:
-        """Start at rest at `start`, `start_m` high, to a landing on the ground."""
+    def __init__(self, start: Sole, landing: Sole, duration_s: float, walking: Walking) -> None:
+        """Start at rest on the floor at `start`."""
         self.position = [start.x, start.y, start.yaw]
         self.velocity = [0.0, 0.0, 0.0]
         self.acceleration = [0.0, 0.0, 0.0]
@@ -48,9 +37,7 @@ class Swing:
         self.time_s = 0.0
         self.urgent = False
         self.raises, self.blocked = 0, False
-        self.ground = ground
-        self.z, self.vz, self.az = start_m, 0.0, 0.0
-        self._highest_m = max(start_m, *ground.soles_m)
+        self.z, self.vz, self.az = 0.0, 0.0, 0.0
         yaw = start.yaw + wrap_angle(landing.yaw - start.yaw)
         self.landing = [landing.x, landing.y, yaw]
 
@@ -123,16 +110,14 @@ class Swing:
         lift_s = min(foot.longest_s, foot.rising * self.duration_s)
         drop_s = min(foot.longest_s, (1.0 - foot.rising) * self.duration_s)
         before_s = self.time_s - dt_s
-        floor_m = self.ground.under(*self.landing[:2])
-        goal, rate = max(self._highest_m, floor_m) + self.height_m, 0.0
+        goal, rate = self.height_m, 0.0
         if before_s < lift_s - dt_s:
             left_s = lift_s - before_s
         elif before_s < self.duration_s - drop_s - dt_s:
             left_s = 0.1
         elif before_s < self.duration_s - dt_s:
             left_s = self.duration_s - before_s
-            below_m, rate = (foot.press_m, 0.0) if self.urgent else (foot.touch_m, -foot.touch_m_s)
-            goal = floor_m - below_m
+            goal, rate = (-foot.press_m, 0.0) if self.urgent else (-foot.touch_m, -foot.touch_m_s)
         else:
             self.z -= foot.touch_m_s * dt_s
             self.vz, self.az = -foot.touch_m_s, 0.0

@@ -19,23 +19,15 @@ import math
 import numpy as np
 from msgspec.structs import replace
 
-from robot.fusion.state_estimator.errors import (
-    ACCEL_BIAS,
-    FLOOR,
-    FOOT,
-    FOOT_TURN,
-    GYRO_BIAS,
-    SIZE,
-    P,
-    R,
-    V,
-)
-from robot.fusion.state_estimator.floor import OnFloor
 from robot.fusion.state_estimator.parameters import Parameters
-from robot.fusion.state_estimator.turning import exponential, skew_into, small_turn
 from robot.physics import GRAVITY_M_S2
 from robot.se3 import Array
 
+R, V, P, LEFT, RIGHT = (slice(k, k + 3) for k in range(0, 15, 3))
+LEFT_TURN, RIGHT_TURN = slice(15, 18), slice(18, 21)
+GYRO_BIAS, ACCEL_BIAS = slice(21, 24), slice(24, 27)
+SIZE = 27
+FOOT, FOOT_TURN = (LEFT, RIGHT), (LEFT_TURN, RIGHT_TURN)
 LEVEL_EVERY_S = 0.05
 """Flatness and height of the soles are told once in that time: they change slowly."""
 MOST_BEHIND_S = 0.01
@@ -61,7 +53,7 @@ def _leg_rows(foot: slice, turn: slice) -> Array:
 LEG_ROWS = [_leg_rows(foot, turn) for foot, turn in zip(FOOT, FOOT_TURN, strict=True)]
 
 
-class ContactFilter(OnFloor):
+class ContactFilter:
     """Keeps the pose and velocity of an IMU, of two soles, and the IMU's biases.
 
     Attributes:
@@ -72,8 +64,8 @@ class ContactFilter(OnFloor):
         turns: their orientations in N, shape (2, 3, 3).
         gyro_bias: in I [rad/s], shape (3,).
         accel_bias: in I [m/s²], shape (3,).
-        covariance: of the error, shape (30, 30), in the order R, v, p, left, right, left turn,
-            right turn, gyro bias, accelerometer bias, floor.
+        covariance: of the error, shape (27, 27), in the order R, v, p, left, right, left turn,
+            right turn, gyro bias, accelerometer bias.
         standing: whether each foot is held to stand still.
         slips: how often a foot that was held to stand was found to have moved.
     """
@@ -86,16 +78,26 @@ class ContactFilter(OnFloor):
             rotation: of I in N, shape (3, 3).
             position: of I in N [m], shape (3,).
         """
-        super().__init__(parameters)
+        self.parameters = parameters
+        self.gyro_bias: Array = np.zeros(3)
+        self.accel_bias: Array = np.zeros(3)
+        self.covariance: Array = np.zeros((SIZE, SIZE))
         self.slips = [0, 0]
         self._allocate()
         k = parameters
-        diagonal = self._diagonal
+        diagonal = self.covariance.reshape(-1)[:: SIZE + 1]
         diagonal[GYRO_BIAS] = k.gyro_bias_rad_s**2
         diagonal[ACCEL_BIAS] = k.accel_bias_m_s2**2
         self.place(rotation, position)
 
     def _allocate(self) -> None:
+        self.rotation: Array = np.eye(3)
+        self.v: Array = np.zeros(3)
+        self.p: Array = np.zeros(3)
+        self.feet: Array = np.zeros((2, 3))
+        self.turns: Array = np.zeros((2, 3, 3))
+        self.standing = [False, False]
+        self._since_s = [0.0, 0.0]
         self._planted_s = 0.0
         self._behind_s = 0.0
         self._unlevelled_s = 0.0
@@ -103,6 +105,10 @@ class ContactFilter(OnFloor):
         self._FP: Array = np.zeros((SIZE, SIZE))
         self._levers: Array = np.zeros((15, 3))
         self._levers[:3] = np.eye(3)
+        self._H: Array = np.zeros((18, SIZE))
+        self._z: Array = np.zeros(18)
+        self._noise: Array = np.zeros(18)
+        self._diagonal: Array = self.covariance.reshape(-1)[:: SIZE + 1]
 
     def place(self, rotation: Array, position: Array) -> None:
         """Begin anew at rest at a pose, feet in the air; what is known of the biases stays."""
@@ -115,15 +121,13 @@ class ContactFilter(OnFloor):
         self._planted_s = 0.0
         self._behind_s = 0.0
         covariance = self.covariance
-        for told in (slice(0, 21), FLOOR):
-            covariance[told, :] = 0.0
-            covariance[:, told] = 0.0
+        covariance[:21, :] = 0.0
+        covariance[:, :21] = 0.0
         self._diagonal[:3] = k.tilt_rad**2
         self._diagonal[2] = 1e-8  # heading and place are told by nothing: N is where it begins
         self._diagonal[3:6] = k.velocity_m_s**2
         self._diagonal[6:8] = 1e-8
         self._diagonal[8] = (2.0 * k.height_m) ** 2
-        self._begin_floor()
         for side in (0, 1):
             self.feet[side] = position
             self.turns[side] = rotation
@@ -164,10 +168,10 @@ class ContactFilter(OnFloor):
             return
         k, transition, levers = self.parameters, self._F, self._levers
         rotation = self.rotation
-        skew_into(levers, 3, self.v)
-        skew_into(levers, 6, self.p)
-        skew_into(levers, 9, self.feet[0])
-        skew_into(levers, 12, self.feet[1])
+        _skew_into(levers, 3, self.v)
+        _skew_into(levers, 6, self.p)
+        _skew_into(levers, 9, self.feet[0])
+        _skew_into(levers, 12, self.feet[1])
         step = dt_s * rotation
         np.negative(levers.dot(step), out=transition[:15, GYRO_BIAS])
         np.negative(step, out=transition[V, ACCEL_BIAS])
@@ -211,7 +215,7 @@ class ContactFilter(OnFloor):
 
     def shift(self, dx_m: float, dy_m: float) -> None:
         """Move everything by so much: another origin of N."""
-        for point in (self.p, *self.feet, self._floor_at):
+        for point in (self.p, *self.feet):
             point[0] += dx_m
             point[1] += dy_m
 
@@ -238,13 +242,10 @@ class ContactFilter(OnFloor):
             if known:
                 self._creep(side, dt_s, load[side])
                 self._rock(side, rotations[side])
-                self._settle(side, load[side])
         if not self._look(positions, rotations):
             self._look(positions, rotations)  # again, with the foot that slipped set anew
         if self._unlevelled_s > LEVEL_EVERY_S - 1e-6:
             self._unlevelled_s = 0.0
-        if self.standing[0] and self.standing[1]:
-            self._lower()
 
     def _look(self, positions: Array, rotations: Array) -> bool:
         """Take in what the standing legs and the floor tell; False if a foot was found to slip."""
@@ -256,12 +257,20 @@ class ContactFilter(OnFloor):
         if self._unlevelled_s > LEVEL_EVERY_S - 1e-6:
             self._round_off()
             for side in (0, 1):
-                if self._settled[side] and self.standing[side]:
+                if self.standing[side]:
                     row = self._floor(row, side, self._unlevelled_s)
         if not row or self._update(row, gate=self.parameters.slip_gate):
             return True
         self._set_anew(legs, positions, rotations)
         return False
+
+    def _round_off(self) -> None:
+        """Take back what rounding did: rotations are orthogonal, a covariance is symmetric."""
+        self.rotation = orthogonal(self.rotation)
+        for side in (0, 1):
+            self.turns[side] = orthogonal(self.turns[side])
+        self.covariance += self.covariance.T
+        self.covariance *= 0.5
 
     def _set_anew(self, rows: int, positions: Array, rotations: Array) -> None:
         """Let the foot that disagrees most with the base stand where it is now."""
@@ -290,7 +299,11 @@ class ContactFilter(OnFloor):
         covariance[:, turn] = covariance[:, R]
         self._diagonal[foot] += k.foot_m**2
         self._diagonal[turn] += k.foot_rad**2
-        self._settled[side] = False
+        self._add_floor(side)
+
+    def _add_floor(self, side: int) -> None:
+        """What a sole that has come down tells at once: it lies flat on the floor."""
+        self._update(self._floor(0, side, math.inf))
 
     def _creep(self, side: int, dt_s: float, load: float) -> None:
         """A foot that stands creeps a little, more just after landing and under little load."""
@@ -307,7 +320,6 @@ class ContactFilter(OnFloor):
             slip, twist = k.planted_factor**2 * slip, k.planted_factor**2 * twist
         diagonal, turn = self._diagonal, 15 + 3 * side
         diagonal[FOOT[side]] += slip
-        diagonal[11 + 3 * side] += (k.sinks**2 - 1.0) * slip
         diagonal[turn] += roll
         diagonal[turn + 1] += roll
         diagonal[turn + 2] += twist
@@ -338,3 +350,107 @@ class ContactFilter(OnFloor):
         self._noise[row : row + 3] = k.foot_m**2
         self._noise[row + 3 : row + 6] = k.foot_rad**2
         return row + 6
+
+    def _floor(self, row: int, side: int, since_s: float) -> int:
+        """What the floor tells of a sole: level, at height zero; returns the next free row.
+
+        `since_s`: for how long it has not been asked.
+        """
+        k, H, z = self.parameters, self._H, self._z
+        H[row : row + 3] = 0.0
+        turn, foot = 15 + 3 * side, 9 + 3 * side
+        ux, uy, uz = self.turns[side][:, 2].tolist()
+        # Turned about the vertical it is as level: no row of this may tell of a heading.
+        H[row, turn + 1], H[row + 1, turn] = -uz, uz
+        z[row], z[row + 1] = ux, uy
+        x, y, height = self.feet[side].tolist()
+        H[row + 2, 0], H[row + 2, 1], H[row + 2, foot + 2] = y, -x, 1.0
+        z[row + 2] = -height
+        repeats = max(1.0, 2.0 * k.flat_time_s / since_s)
+        tilted = 1.0 + (ux * ux + uy * uy) / (2.0 * k.flat_rad) ** 2  # on an edge it tells less
+        raised = 1.0 + (height / (2.0 * k.height_m)) ** 2
+        beside_m = abs(float(self.feet[1 - side][2])) if self.standing[1 - side] else 0.0
+        higher = abs(height) - beside_m - k.step_m
+        if (
+            higher > 0.0
+        ):  # on a sill, not on the floor: as Geman and McClure weigh outliers, of 2 mm
+            raised *= (1.0 + (higher / (0.4 * k.height_m)) ** 2) ** 2
+        self._noise[row] = self._noise[row + 1] = tilted * repeats * k.flat_rad**2
+        self._noise[row + 2] = raised * tilted * repeats * k.height_m**2
+        return row + 3
+
+    # --- the update ----------------------------------------------------------------------------
+
+    def _update(self, rows: int, *, gate: float = math.inf) -> bool:
+        """Take in the first `rows` measurements; False, and nothing done, past the gate.
+
+        The gate is a squared distance for 6 rows; of more rows as many times more is normal.
+        """
+        H, z, covariance = self._H[:rows], self._z[:rows], self.covariance
+        HP = H.dot(covariance)
+        S = HP.dot(H.T)
+        S.reshape(-1)[:: rows + 1] += self._noise[:rows]
+        inverse = np.asarray(np.linalg.inv(S), dtype=np.float64)
+        weighed = inverse.dot(z)
+        if float(weighed.dot(z)) > gate + 1.5 * (rows - 6):
+            return False
+        self._move(HP.T.dot(weighed))
+        covariance -= HP.T.dot(inverse.dot(HP))
+        return True
+
+    def _move(self, step: Array) -> None:
+        """Apply an error: ``Exp(step) state_hat``."""
+        rx, ry, rz = step[:3].tolist()
+        turn = exponential(rx, ry, rz)
+        self.rotation = turn.dot(self.rotation)
+        self.v = turn.dot(self.v)
+        self.v += step[V]
+        self.p = turn.dot(self.p)
+        self.p += step[P]
+        self.feet = self.feet.dot(turn.T)
+        self.feet += step[9:15].reshape(2, 3)
+        for side in (0, 1):
+            x, y, z = step[FOOT_TURN[side]].tolist()
+            self.turns[side] = exponential(x, y, z).dot(self.turns[side])
+        self.gyro_bias += step[GYRO_BIAS]
+        self.accel_bias += step[ACCEL_BIAS]
+
+
+def exponential(x: float, y: float, z: float) -> Array:
+    """Rotation matrix of a rotation vector [rad], shape (3, 3) (Rodrigues)."""
+    square = x * x + y * y + z * z
+    if square < 1e-8:
+        a, b = 1.0 - square / 6.0, 0.5 - square / 24.0
+    else:
+        angle = math.sqrt(square)
+        a, b = math.sin(angle) / angle, (1.0 - math.cos(angle)) / square
+    xy, xz, yz = b * x * y, b * x * z, b * y * z
+    return np.array(
+        (
+            (1.0 - b * (y * y + z * z), xy - a * z, xz + a * y),
+            (xy + a * z, 1.0 - b * (x * x + z * z), yz - a * x),
+            (xz - a * y, yz + a * x, 1.0 - b * (x * x + y * y)),
+        )
+    )
+
+
+def small_turn(rotation: Array) -> Array:
+    """Rotation vector [rad] of a turn of less than a right angle, shape (3,)."""
+    (_, a, b), (c, _, d), (e, f, _) = rotation.tolist()
+    x, y, z = 0.5 * (f - d), 0.5 * (b - e), 0.5 * (c - a)
+    sine = math.sqrt(x * x + y * y + z * z)
+    scale = 1.0 + sine * sine / 6.0 if sine < 0.1 else math.asin(min(1.0, sine)) / sine
+    return np.array((scale * x, scale * y, scale * z))
+
+
+def orthogonal(rotation: Array) -> Array:
+    """The rotation nearest to a matrix that rounding took a little off, to first order."""
+    return 1.5 * rotation - 0.5 * (rotation @ rotation.T @ rotation)
+
+
+def _skew_into(levers: Array, row: int, vector: Array) -> None:
+    """Write [vector]x into three rows, shape (3, 3); the diagonal is zero."""
+    x, y, z = vector.tolist()
+    levers[row, 1], levers[row, 2] = -z, y
+    levers[row + 1, 0], levers[row + 1, 2] = z, -x
+    levers[row + 2, 0], levers[row + 2, 1] = -y, x

@@ -20,25 +20,16 @@ class Parameters(msgspec.Struct, frozen=True, kw_only=True):
         accel_m_s2_rthz: the same of the accelerometer.
         gyro_bias_walk_rad_s_rts: how fast the gyro's bias wanders.
         accel_bias_walk_m_s2_rts: the same of the accelerometer.
-        slip_m_rts: how a standing foot creeps,
-        sinks: and by what part of that up and down.
+        slip_m_rts: how a standing foot creeps.
         roll_rad_rts: how it tilts, on a floor that gives.
         twist_rad_rts: how it turns about the vertical.
         rock_m: how far from its middle a sole is that tilts about an edge.
         foot_m: error of a sole's position seen from the base: encoders, flexible legs.
         foot_rad: the same of its orientation.
-        flat_rad: how far from the floor's slope a sole stands that bears weight.
+        flat_rad: how far from level a sole stands that bears weight.
         height_m: how far from the floor's height it stands.
-        odd_rad, odd_m: the same of one that stands on something, or over an edge,
-        odd_share: which so many do level, and as many tilted.
-        level_rad: how far from level the floor is where it begins.
-        slope_rad: by how much its slope wanders from a step to the next,
-        slope_kept: of which it keeps that part,
-        rough_m: and its height, beyond that slope.
-        bend_rad: by how much a slope differs that begins,
-        bend_share: which so many soles do that tilt like the other one,
-        plain_rad: if both tilt by more than that.
-        new_m: soles that stand elsewhere, so nearly as high, stand on another floor.
+        step_m: a sole that is so much farther from it than the other one, if that stands, stands
+            on something.
         flat_time_s: for how long one such error lasts; a sole does not stand anew each sample.
         tilt_rad: of the first orientation.
         velocity_m_s: of the first velocity.
@@ -58,25 +49,14 @@ class Parameters(msgspec.Struct, frozen=True, kw_only=True):
     gyro_bias_walk_rad_s_rts: float = 0.003 * DEG
     accel_bias_walk_m_s2_rts: float = 1e-3
     slip_m_rts: float = 0.01
-    sinks: float = 0.03
     roll_rad_rts: float = 3.0 * DEG
     twist_rad_rts: float = 1.0 * DEG
     rock_m: float = 0.1
     foot_m: float = 0.003
     foot_rad: float = 0.2 * DEG
     flat_rad: float = 2.5 * DEG
-    height_m: float = 0.003
-    odd_rad: float = 6.0 * DEG
-    odd_m: float = 0.03
-    odd_share: float = 0.1
-    level_rad: float = 0.5 * DEG
-    slope_rad: float = 0.1 * DEG
-    bend_rad: float = 4.0 * DEG
-    plain_rad: float = 2.0 * DEG
-    bend_share: float = 0.4
-    slope_kept: float = 0.98
-    rough_m: float = 0.001
-    new_m: float = 0.012
+    height_m: float = 0.005
+    step_m: float = 0.011
     flat_time_s: float = 0.5
     tilt_rad: float = 1.5 * DEG
     velocity_m_s: float = 0.05

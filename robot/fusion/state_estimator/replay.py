@@ -9,8 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from robot.fusion.state_estimator.contacts import Contacts
-from robot.fusion.state_estimator.errors import ACCEL_BIAS, GYRO_BIAS
-from robot.fusion.state_estimator.filter import ContactFilter
+from robot.fusion.state_estimator.filter import ACCEL_BIAS, GYRO_BIAS, ContactFilter
 from robot.fusion.state_estimator.legged_body import LeggedBody
 from robot.fusion.state_estimator.legged_log import LeggedLog
 from robot.fusion.state_estimator.parameters import DEG, Parameters

@@ -10,7 +10,6 @@ from msgspec.structs import replace
 
 from robot.control.walking.footsteps import Sole
 from robot.control.walking.swing import Swing, minimum_jerk
-from robot.fusion.state_estimator.ground import LEVEL
 from robot.model import description
 
 DT_S = 0.004
@@ -152,16 +151,3 @@ def test_how_it_comes_down_is_the_bodys():
         pass
     assert swing.z == pytest.approx(-0.004, abs=0.002)
     assert swing.vz == pytest.approx(-0.2, abs=0.02)
-
-
-@given(landings, st.floats(-0.1, 0.1), st.floats(-0.1, 0.1), st.floats(0.0, 0.04))
-def test_it_comes_down_on_the_ground_that_it_goes_to_from_what_it_stood_on(
-    landing, along, across, start_m
-):
-    ground = LEVEL._replace(along=along, across=across, soles_m=(start_m, 0.0))
-    swing = Swing(START, landing, 0.5, WALKING, ground=ground, start_m=start_m)
-    heights = [one.z for one in fly(swing, until_s=0.5)]
-    there_m = ground.under(landing.x, landing.y)
-    assert heights[0] == pytest.approx(start_m, abs=0.01)
-    assert max(heights) > max(start_m, there_m) + 0.85 * HEIGHT_M
-    assert heights[-1] == pytest.approx(there_m - FOOT.touch_m, abs=0.003)

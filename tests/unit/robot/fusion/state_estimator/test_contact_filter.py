@@ -5,10 +5,14 @@ import math
 import numpy as np
 import pytest
 
-from robot.fusion.state_estimator.errors import ACCEL_BIAS, GYRO_BIAS
-from robot.fusion.state_estimator.filter import ContactFilter
+from robot.fusion.state_estimator.filter import (
+    ACCEL_BIAS,
+    GYRO_BIAS,
+    ContactFilter,
+    exponential,
+    small_turn,
+)
 from robot.fusion.state_estimator.parameters import Parameters
-from robot.fusion.state_estimator.turning import exponential, small_turn
 from robot.se3 import rotation_vector
 from tests.fakes.swaying import Sway
 
