@@ -54,5 +54,23 @@ def test_a_folder_that_cannot_be_is_said_before_it_walks(tmp_path, monkeypatch):
         record.record(asked(tmp_path / "file" / "walk"))
 
 
+def test_a_recording_that_is_there_stays(tmp_path, monkeypatch):
+    monkeypatch.setattr(record.recorded_walk, "record", lambda *_, **__: pytest.fail("it walked"))
+    (tmp_path / record.LEGS).write_text("somebody's own")
+    with pytest.raises(ConfigError, match="there already"):
+        record.record(asked(tmp_path))
+    assert [path.name for path in tmp_path.iterdir()] == [record.LEGS]
+
+
+def test_a_walk_that_is_cut_off_leaves_nothing(tmp_path, monkeypatch):
+    def cut_off(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(record.recorded_walk, "record", cut_off)
+    with pytest.raises(KeyboardInterrupt):
+        record.record(asked(tmp_path))
+    assert not list(tmp_path.iterdir())
+
+
 def _length_m(points):
     return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())

@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 
 from executive.frontends.composition_root import REALITY
-from executive.frontends.new_files import write
+from executive.frontends.new_files import refuse_taken, write
 from executive.frontends.output import say, write_json
 from executive.meaning.request import setting
 from executive.runs import recorded_walk
@@ -38,14 +38,21 @@ def record(asked: Asked) -> int:
     """Lead the robot through the world, and write what its senses said; returns the exit status.
 
     Raises:
-        ConfigError: something asked for cannot be meant, or the folder cannot be written.
+        ConfigError: something asked for cannot be meant, the folder cannot be written, or has such
+            files already.
     """
     there = setting(REALITY.under(asked.reality), asked.world, robot=asked.robot)
-    folder = asked.out
-    write(folder / URDF, urdf(there.description).encode(), run=folder)  # before it walks for long
-    walk = recorded_walk.record(
-        there, seed=asked.seed, longest_s=asked.longest_s, tell=tell_on_screen
-    )
+    folder, model = asked.out, urdf(there.description).encode()
+    for name in (LIDAR, LEGS, URDF, TRUTH):
+        refuse_taken(folder / name)
+    write(folder / URDF, model, run=folder)  # a folder that takes none is told before it walks
+    try:
+        walk = recorded_walk.record(
+            there, seed=asked.seed, longest_s=asked.longest_s, tell=tell_on_screen
+        )
+    except BaseException:
+        (folder / URDF).unlink(missing_ok=True)
+        raise
     rows = io.StringIO()
     np.savetxt(rows, walk.truth, fmt="%.9f")
     write(folder / LIDAR, packed(walk.lidar), run=folder)

@@ -163,7 +163,7 @@ def record(
     For those who want to try `map build`, `sensors estimate` and `people` and have no recording:
     lidar.npz, legs.npz and robot.urdf are what these read, truth.txt is where the base truly was
     (t x y z qw qx qy qz). Motors and sensors are emulated, with the flaws of the reality
-    (docs/realities.md). The same seed gives the same files.
+    (docs/realities.md). The same seed gives the same files. No file is overwritten.
 
     [bold]Examples[/bold]
 
