@@ -8,12 +8,9 @@ that has no connection just then sends it once it has one: those are told apart.
 
 from __future__ import annotations
 
-import asyncio
 import os
 import random
-import socket
 import tempfile
-import threading
 import time
 from collections import Counter
 from collections.abc import Callable, Generator
@@ -24,14 +21,12 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from executive.frontends.console.address import HOST
 from executive.frontends.console.desk import Desk
-from executive.frontends.console.server import PageServer
-from executive.frontends.recorded_place import scene_of
 from executive.runs import run_folder
 from robot.bringup import private_folder
 from tests.fakes.browser import BROWSER, Browser, Page
 from tests.fakes.puppet_shell import puppet_shell
+from tests.fakes.served_page import served
 
 PROMISED_MS = 50.0
 GIVE_UP_S = 15.0
@@ -67,7 +62,7 @@ def main(
     with tempfile.TemporaryDirectory() as made, Browser() as browser:
         folder = Path(made) / "run"
         run_folder.claim(folder)
-        with puppet_shell(folder, []) as shell, served(shell, folder) as url:
+        with puppet_shell(folder, []) as shell, steered(shell, folder) as url:
             stopped_s: list[float] = []
             before = shell.stop
             shell.stop = lambda why: (stopped_s.append(time.perf_counter()), before(why))[1]  # type: ignore[method-assign]
@@ -193,30 +188,17 @@ ACTS: tuple[Callable[[Browser, Page, random.Random], str], ...] = (
 
 
 @contextmanager
-def served(shell: object, folder: Path) -> Generator[str]:
-    """A console of that shell, in a thread of its own."""
+def steered(shell: object, folder: Path) -> Generator[str]:
+    """The address of a console of that shell."""
     private = private_folder.create()
-    ready, over = threading.Event(), threading.Event()
-    console = PageServer(lambda: folder, scene_of)
-
-    async def serve() -> None:
-        async with await console.open(socket.create_server((HOST, 0))):
-            following = asyncio.create_task(console.follow())
-            ready.set()
-            while not over.is_set():
-                await asyncio.sleep(0.02)
-            following.cancel()
-
-    thread = threading.Thread(target=lambda: asyncio.run(serve()))
-    with Desk(shell, folder=folder, private=private.path):  # type: ignore[arg-type]
-        thread.start()
-        ready.wait()
-        try:
+    try:
+        with (
+            Desk(shell, folder=folder, private=private.path),  # type: ignore[arg-type]
+            served(folder) as console,
+        ):
             yield console.url
-        finally:
-            over.set()
-            thread.join()
-            private_folder.remove(private)
+    finally:
+        private_folder.remove(private)
 
 
 if __name__ == "__main__":

@@ -49,9 +49,9 @@ class OnlyStopping:
         self.out(f"Stopping: {why}.")
 
     def stop_at_once(self, text: str) -> bool:
-        """Stop if a line is a cry to stop; an emergency stop is a stop here, and nothing undoes it.
+        """Stop if a line is a cry to stop; an emergency stop is one here, and nothing undoes it.
 
-        Its motors are still after it.
+        What it does ends with it, and no wish for more can follow.
         """
         said = emergency(text)
         if said is not None and said.undoes:

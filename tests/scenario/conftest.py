@@ -1,11 +1,17 @@
-"""The command line, as people call it."""
+"""The command line, as people call it; and a browser on a page, with a robot behind it."""
+
+from __future__ import annotations
 
 import os
 
 import pytest
 
 from executive.frontends import cli
+from executive.frontends.console.desk import Desk
 from executive.runs import run_folder
+from robot.bringup import private_folder
+from tests.fakes.browser import Browser
+from tests.fakes.puppet_shell import puppet_shell
 
 
 @pytest.fixture
@@ -24,3 +30,28 @@ def humanoid(monkeypatch, capsys, tmp_path):
         return int(end.value.code or 0), out + err
 
     return run
+
+
+@pytest.fixture(scope="module")
+def opened():
+    with Browser() as made:
+        yield made
+
+
+@pytest.fixture
+def browser(opened):
+    yield opened
+    opened.close_pages()
+
+
+@pytest.fixture
+def shell(tmp_path):
+    """A puppet at work on orders, with a desk."""
+    said: list[str] = []
+    folder = tmp_path / "run"
+    run_folder.claim(folder)
+    with puppet_shell(folder, said) as made:
+        private = private_folder.create()
+        with Desk(made, folder=folder, private=private.path):
+            yield made
+        private_folder.remove(private)
